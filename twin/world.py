@@ -1,0 +1,53 @@
+"""What surrounds the vehicle: terrain, things that stand on it, sky, and where it starts."""
+
+from dataclasses import dataclass, field
+from typing import Protocol
+
+import numpy as np
+from numpy.typing import NDArray
+
+Floats = NDArray[np.float64]
+
+SOFT = frozenset({"rumble_strip", "brush"})
+"""Kinds of obstacle that a vehicle may touch."""
+
+
+class Terrain(Protocol):
+    """A pure function of position: the same height for the same place, whenever it is asked."""
+
+    def height(self, x: Floats, y: Floats) -> Floats:
+        """Ground height [m] at world positions x, y [m]; any matching shapes."""
+        ...
+
+
+@dataclass(frozen=True)
+class Obstacle:
+    """A rigid thing: a box (half sizes along its axes) or an upright cylinder (radius, -, half height)."""
+
+    name: str
+    kind: str
+    """`gate_post`, `gate_flank`, `tunnel`, `car`, `hay_bale`, `tires`, `tank_trap`, `rumble_strip`, ..."""
+    shape: str
+    """`box` or `cylinder`."""
+    center_m: tuple[float, float, float]
+    half_size_m: tuple[float, float, float]
+    quat: tuple[float, float, float, float] = (1.0, 0.0, 0.0, 0.0)
+    """Orientation, w x y z."""
+    owner: str = ""
+    """The thing it is a part of: two boxes make one car. Contacts are counted per owner."""
+
+
+@dataclass(frozen=True)
+class World:
+    """Everything outside the vehicle, as one episode's seed drew it. World frame: ENU, metres."""
+
+    terrain: Terrain
+    obstacles: tuple[Obstacle, ...]
+    friction: float
+    """Coefficient of the ground."""
+    anchor: tuple[float, float]
+    """Latitude and longitude of the world's origin, [deg]."""
+    start: tuple[float, float, float]
+    """x, y [m] and heading [rad] of the reference point."""
+    satellites: Floats = field(repr=False, default_factory=lambda: np.zeros((0, 2)))
+    """Shape (n, 2): azimuth counter-clockwise from east and elevation, [rad]."""
