@@ -1,0 +1,49 @@
+"""A course: all that an episode, a judge and a picture need to know about one drawn world."""
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from twin.world import World
+
+Floats = NDArray[np.float64]
+
+FOOT_M = 0.3048
+MPH_MPS = 0.44704
+
+
+@dataclass(frozen=True, eq=False)
+class Gate:
+    """A gate's free opening: from the inner face of one post to that of the other."""
+
+    left_m: Floats
+    """Shape (2,), world frame, [m], on the left of who passes it forwards."""
+    right_m: Floats
+    """Shape (2,), world frame, [m]."""
+
+
+@dataclass(frozen=True, eq=False)
+class Course:
+    """One course as one seed drew it. It holds exactly what is to be driven: of a longer route
+    file only the stretch. Points are in the world frame, [m]."""
+
+    name: str
+    title: str
+    seed: int
+    world: World
+    route_text: str
+    """The route definition file (RDDF) that the navigator is given."""
+    route_name: str
+    """What messages call that file."""
+    waypoint_m: Floats
+    """Shape (n, 2)."""
+    half_width_m: Floats
+    """Shape (n,): the corridor's half-width from each waypoint to the next."""
+    speed_mps: Floats
+    """Shape (n,): the speed limit from each waypoint to the next."""
+    time_limit_s: float
+    gates: tuple[Gate, ...] = ()
+    """In driving order."""
+    tunnel_center_line_m: Floats | None = None
+    """Shape (k, 2), in driving order, or None where there is no tunnel."""
