@@ -1,4 +1,4 @@
-"""Ground as a pure function of (seed, position), and the window of it that moves with the vehicle."""
+"""Ground as a pure function of (seed, position), and the window of it around the vehicle."""
 
 from dataclasses import dataclass
 from functools import lru_cache
