@@ -1,0 +1,162 @@
+"""Engine, CVT, gearbox and brakes: from pedal positions to torques at the wheels.
+
+Plain floats and small functions: all of it runs 300 times a simulated second.
+Numbers with unit, source and grade: models/README.md.
+"""
+
+from dataclasses import dataclass
+from math import exp
+
+import numpy as np
+
+from nav.messages import Gear
+from twin.vehicle import WHEEL_RADIUS_M
+
+
+@dataclass(frozen=True)
+class Range:
+    """What the CVT gives in one position of the gearbox."""
+
+    direction: float
+    """+1 forwards, -1 backwards, 0 disconnected."""
+    force_n: float
+    """Largest tractive force, all wheels together."""
+    top_mps: float
+    """Speed at which the engine's limiter has taken all the power away."""
+    braking_n_per_mps: float
+    """Engine braking with the throttle closed, a speed."""
+    braking_limit_n: float
+
+
+@dataclass(frozen=True)
+class DrivetrainParameters:
+    """The driveline of a Ranger 6x6 in six-wheel drive."""
+
+    power_w: float = 17_000.0
+    """Published 30 hp at the crank, 76 % of it through CVT and three axles (estimated)."""
+    engine_lag_s: float = 0.3
+    reverse: Range = Range(-1.0, 4500.0, 6.0, 250.0, 600.0)
+    neutral: Range = Range(0.0, 0.0, 1.0, 0.0, 0.0)
+    low: Range = Range(1.0, 5500.0, 10.0, 200.0, 700.0)
+    high: Range = Range(1.0, 3000.0, 18.6, 60.0, 350.0)
+    limiter_mps: float = 1.5
+    """Width below the top speed in which the limiter works."""
+    clutch_mps: float = 1.0
+    """Below this speed the centrifugal clutch releases: no engine braking, and no idle creep."""
+    slip_n_m_s: float = 20.0
+    """Coupling of the axles: torque for a wheel's difference from the mean speed, [N m s/rad]."""
+    rolling_n_m: float = 16.0
+    """Rolling resistance of a wheel: 3 % of its load (10 psi tires on dirt)."""
+    brake_n_m: tuple[float, ...] = (470.0, 470.0, 380.0, 380.0, 0.0, 0.0)
+    """Largest brake torque of each wheel; four wheels are braked."""
+    drag_n_s2_m2: float = 1.2
+    """Aerodynamic drag: half density x 2.0 m^2 of drag area."""
+
+    def __post_init__(self) -> None:
+        object.__setattr__(self, "ranges", (self.reverse, self.neutral, self.low, self.high))
+
+
+class Engine:
+    """The engine's answer to the throttle: a first-order lag."""
+
+    def __init__(self, parameters: DrivetrainParameters, dt_s: float) -> None:
+        self.parameters = parameters
+        self.output = 0.0
+        self._gain = 1.0 - exp(-dt_s / parameters.engine_lag_s)
+
+    def force(self, throttle: float, gear: Gear, speed_mps: float) -> float:
+        """Advance by one step; tractive force along the vehicle's x axis, [N]."""
+        self.output += self._gain * (throttle - self.output)
+        return tractive_force(self.parameters, self.output, gear, speed_mps)
+
+
+def tractive_force(
+    parameters: DrivetrainParameters, output: float, gear: Gear, speed_mps: float
+) -> float:
+    """Force of all wheels together [N] for an engine output 0 to 1 at a signed speed."""
+    engaged: Range = parameters.ranges[gear]
+    if engaged.direction == 0.0:
+        return 0.0
+    speed = engaged.direction * speed_mps
+    drive = output * _available(parameters, engaged, speed)
+    return engaged.direction * (
+        drive - (1.0 - output) * _engine_braking(parameters, engaged, speed)
+    )
+
+
+def _available(parameters: DrivetrainParameters, engaged: Range, speed: float) -> float:
+    force = min(engaged.force_n, parameters.power_w / max(speed, 0.1))
+    return force * min(1.0, max(0.0, (engaged.top_mps - speed) / parameters.limiter_mps))
+
+
+def _engine_braking(parameters: DrivetrainParameters, engaged: Range, speed: float) -> float:
+    slipping = max(0.0, speed - parameters.clutch_mps)
+    return min(engaged.braking_limit_n, engaged.braking_n_per_mps * slipping)
+
+
+def wheel_torques(
+    parameters: DrivetrainParameters, force_n: float, spin_radps: list[float]
+) -> list[float]:
+    """Drive torque of each wheel [N m]: equal shares, less what a faster wheel gives to others."""
+    share = force_n * WHEEL_RADIUS_M / len(spin_radps)
+    mean = (
+        spin_radps[0] + spin_radps[1] + spin_radps[2]
+        + spin_radps[3] + spin_radps[4] + spin_radps[5]
+    ) / 6.0  # fmt: skip
+    return [share + parameters.slip_n_m_s * (mean - w) for w in spin_radps]
+
+
+def friction_torques(parameters: DrivetrainParameters, brake: float) -> list[float]:
+    """Dry friction at each wheel [N m]: rolling resistance and brake."""
+    return [parameters.rolling_n_m + brake * b for b in parameters.brake_n_m]
+
+
+@dataclass(frozen=True)
+class GearboxParameters:
+    """How long the linkage takes from one position to the next: log-normal, cut off."""
+
+    shift_s_per_position: float = 2.0
+    """Median."""
+    shift_sigma: float = 0.4
+    """Standard deviation of the logarithm."""
+    shift_limit_s: float = 20.0
+    """Longest: R to H, three positions, in the paper's "up to one minute"."""
+    rolling_mps: float = 0.3
+    """The linkage does not leave a position while the vehicle is faster than this."""
+
+
+class Gearbox:
+    """A linkage R-N-L-H that a slow motor walks from position to position."""
+
+    def __init__(self, parameters: GearboxParameters, rng: np.random.Generator, gear: Gear) -> None:
+        self.parameters = parameters
+        self.gear = gear
+        self.shifting = False
+        self._rng = rng
+        self._left_s = 0.0
+        self._next = gear
+
+    def step(self, target: Gear, speed_mps: float, dt_s: float) -> None:
+        """Advance by `dt_s` towards `target`; refuse to leave a position while rolling."""
+        if self.shifting:
+            self._walk(dt_s)
+        if not self.shifting and target != self.gear:
+            self._leave(target, speed_mps)
+
+    def _leave(self, target: Gear, speed_mps: float) -> None:
+        if abs(speed_mps) > self.parameters.rolling_mps:
+            return
+        self._next = Gear(self.gear + (1 if target > self.gear else -1))
+        self._left_s = self._duration_s()
+        self.shifting = True
+
+    def _walk(self, dt_s: float) -> None:
+        self._left_s -= dt_s
+        if self._left_s <= 0.0:
+            self.gear = self._next
+            self.shifting = False
+
+    def _duration_s(self) -> float:
+        p = self.parameters
+        drawn = p.shift_s_per_position * exp(p.shift_sigma * self._rng.standard_normal())
+        return min(drawn, p.shift_limit_s)

@@ -1,0 +1,77 @@
+"""The Ranger in the compiled model: names, indices, and the geometry of its steering.
+
+Numbers with unit, source and grade: models/README.md.
+"""
+
+from math import atan, tan
+from typing import NamedTuple
+
+import mujoco
+import numpy as np
+
+AXLES = ("front", "middle", "rear")
+SIDES = ("left", "right")
+WHEELS = tuple(f"{axle}_{side}" for axle in AXLES for side in SIDES)
+"""The order of every array with one value a wheel."""
+
+WHEEL_RADIUS_M = 0.3175
+TRACK_M = 1.24
+PIVOT_M = 2.29
+"""Front axle to the line about which the vehicle turns (published: the manual's wheelbase)."""
+
+STEERING_LIMIT_RAD = 0.576
+LINKAGE_RATIO = 0.50
+LINKAGE_PROGRESSION_PER_RAD = 0.25
+"""Estimated: chosen so that the twin turns as the measured vehicle did, see `linkage`."""
+
+
+def linkage(steering_rad: float) -> float:
+    """Mean angle of the front wheels [rad] for a position of the steering [rad].
+
+    The measured turning circle (8.174 k - 13.82 k^2 of full steering) is nearly half of what
+    Ackermann geometry gives, and progressive; where the loss sits is unknown, so it is put here.
+    """
+    return steering_rad * (LINKAGE_RATIO + LINKAGE_PROGRESSION_PER_RAD * abs(steering_rad))
+
+
+def ackermann(mean_rad: float) -> tuple[float, float]:
+    """Angles of the left and right front wheels [rad] around one centre of turn."""
+    slope = tan(mean_rad)
+    half = 0.5 * TRACK_M / PIVOT_M * slope
+    return atan(slope / (1.0 - half)), atan(slope / (1.0 + half))
+
+
+class Indices(NamedTuple):
+    """Where the vehicle's parts are in the model's arrays; wheels in the order of WHEELS."""
+
+    body: int
+    free_qpos: int
+    free_dof: int
+    spin_dof: np.ndarray
+    steer_actuator: np.ndarray
+    drive_actuator: np.ndarray
+    wheel_body: np.ndarray
+    tire_geom: np.ndarray
+    gyro: int
+    accelerometer: int
+
+
+def indices(model: mujoco.MjModel) -> Indices:
+    """Look the vehicle up by name.
+
+    Raises:
+        KeyError: the model holds no Ranger; MuJoCo's message lists the names that exist.
+    """
+    free = model.joint("ranger_free")
+    return Indices(
+        body=model.body("ranger").id,
+        free_qpos=int(free.qposadr[0]),
+        free_dof=int(free.dofadr[0]),
+        spin_dof=np.array([model.joint(f"{w}_spin").dofadr[0] for w in WHEELS]),
+        steer_actuator=np.array([model.actuator(f"front_{s}_steer").id for s in SIDES]),
+        drive_actuator=np.array([model.actuator(f"{w}_drive").id for w in WHEELS]),
+        wheel_body=np.array([model.body(f"{w}_wheel").id for w in WHEELS]),
+        tire_geom=np.array([model.geom(f"{w}_tire").id for w in WHEELS]),
+        gyro=int(model.sensor("imu_gyro").adr[0]),
+        accelerometer=int(model.sensor("imu_accelerometer").adr[0]),
+    )
