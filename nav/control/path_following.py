@@ -1,0 +1,60 @@
+"""Steering along ten pathpoints: feedback on the pose at which steering will answer."""
+
+from dataclasses import dataclass
+from math import atan2, cos, hypot, sin
+
+import numpy as np
+
+from nav.messages import EgoEstimate, Floats
+from nav.parameters.control import PathFollowing
+from nav.parameters.vehicle import Steering
+from nav.planning.curve import Curve
+
+
+@dataclass(frozen=True)
+class PathError:
+    """Where a pose lies relative to a curve."""
+
+    arc_m: float
+    offset_m: float
+    """Left of the curve is positive."""
+    heading_rad: float
+    curvature_per_m: float
+
+
+def predicted(ego: EgoEstimate, delay_s: float) -> tuple[float, float, float]:
+    """x, y, heading after `delay_s` at the present speed and yaw rate."""
+    turn = ego.yaw_rate_radps * delay_s
+    middle = ego.heading_rad + 0.5 * turn
+    way = ego.speed_mps * delay_s
+    x, y = ego.position_m
+    return x + way * cos(middle), y + way * sin(middle), ego.heading_rad + turn
+
+
+def path_error(curve: Curve, x_m: float, y_m: float, heading_rad: float) -> PathError:
+    """Project a pose onto the curve, which goes on straight beyond its ends."""
+    d: Floats = curve.position_m - (x_m, y_m)
+    i = int(np.argmin(d[:, 0] ** 2 + d[:, 1] ** 2))
+    c, s = cos(curve.heading_rad[i]), sin(curve.heading_rad[i])
+    dx, dy = -float(d[i, 0]), -float(d[i, 1])
+    along, offset = c * dx + s * dy, c * dy - s * dx
+    curvature = float(curve.curvature_per_m[i])
+    turned = heading_rad - float(curve.heading_rad[i]) - curvature * along
+    return PathError(
+        float(curve.arc_m[i]) + along, offset, atan2(sin(turned), cos(turned)), curvature
+    )
+
+
+def curvature_command(error: PathError, speed_mps: float, p: PathFollowing) -> float:
+    """Curvature [1/m] that takes offset and heading error back, damped over a length."""
+    length = hypot(p.length_m, p.length_s * max(speed_mps, 0.0))
+    approach = -error.offset_m / (2.0 * p.damping * length)
+    approach = min(max(approach, -p.heading_limit_rad), p.heading_limit_rad)
+    return error.curvature_per_m + 2.0 * p.damping / length * (approach - error.heading_rad)
+
+
+def steering_angle(curvature_per_m: float, steering: Steering) -> float:
+    """Road-wheel angle for a curvature, after the measured turning circle (facts.md)."""
+    k = min(abs(curvature_per_m), 1.0 / steering.minimum_radius_m)
+    angle = steering.limit_rad * (steering.linear_m * k + steering.quadratic_m2 * k * k)
+    return angle if curvature_per_m >= 0.0 else -angle

@@ -1,0 +1,129 @@
+"""The high-level controller (10 Hz): from fused state to a local path and a speed set point."""
+
+from dataclasses import dataclass
+from math import atan2
+
+import numpy as np
+from numpy.typing import NDArray
+
+from nav.fusion.obstacle_map import ObstacleMap
+from nav.messages import Decision, DirectCommand, EgoEstimate, Floats, FollowPath
+from nav.parameters import Parameters
+from nav.planning.corridor_grid import Lattice, corridor_distance
+from nav.planning.local_path import clear_distances, route_ahead
+from nav.planning.scanning import Boundaries
+from nav.planning.speed_profile import speed_profile
+from nav.route.smooth_path import Projection, SmoothPath, project, smooth_path
+from nav.route.waypoints import Waypoints
+from nav.states.machine import Machine
+from nav.states.situation import Plan, Situation
+
+CORRIDOR_BEHIND = 2
+"""The corridor is drawn from this many segments behind the present one ..."""
+CORRIDOR_AHEAD_M = 45.0
+"""... to this far ahead of it."""
+
+
+@dataclass(frozen=True)
+class Senses:
+    """What the fusion modules say at this moment."""
+
+    ego: EgoEstimate
+    gps_lost_s: float
+    sonar_m: dict[str, float]
+
+
+class HighLevelController:
+    """Knows the route, draws the corridor, and asks the state machine for a plan."""
+
+    def __init__(self, parameters: Parameters, waypoints: Waypoints) -> None:
+        self.parameters = parameters
+        self.waypoints = waypoints
+        self.route: SmoothPath = smooth_path(waypoints)
+        self.V0: Floats = speed_profile(self.route, parameters.planning.speed)
+        self.machine = Machine(parameters)
+        self.here = Projection(0, 0.0, 0.0)
+        self._corridor: tuple[tuple[object, ...], NDArray[np.float32]] | None = None
+
+    def decide(
+        self, time_ns: int, senses: Senses, obstacles: ObstacleMap
+    ) -> tuple[FollowPath | DirectCommand, Decision]:
+        """One decision: the command for the low-level controller, and the numbers behind it."""
+        self.here = project(self.route, senses.ego.position_m, self.here.index)
+        s = self._situation(time_ns, senses, obstacles)
+        plan = self.machine.decide(s)
+        if self.here.arc_m >= self.route.arc_m[-1]:
+            return DirectCommand(time_ns, "stop_and_wait"), self._decision(s, plan)
+        return FollowPath(time_ns, plan.pathpoint_m, plan.speed_mps), self._decision(s, plan)
+
+    def _situation(self, time_ns: int, senses: Senses, obstacles: ObstacleMap) -> Situation:
+        p, ego, here = self.parameters.planning, senses.ego, self.here
+        boundaries = self._boundaries(obstacles)
+        ahead = route_ahead(
+            self.route, here.index, here.cross_track_m, ego.heading_rad, p.local_path
+        )
+        real, safe = clear_distances(ahead, boundaries, p.footprint)
+        return Situation(
+            time_ns=time_ns,
+            ego=ego,
+            boundaries=boundaries,
+            route_ahead=ahead,
+            route_real_m=real,
+            route_safe_m=safe,
+            goal_rad=self._goal(ego),
+            V0_mps=float(self.V0[here.index]),
+            cross_track_m=here.cross_track_m,
+            waypoint=int(self.route.segment[here.index]) + 1,
+            gps_lost_s=senses.gps_lost_s,
+            sonar_m=senses.sonar_m,
+        )
+
+    def _goal(self, ego: EgoEstimate) -> float:
+        """phi(k): towards a point of the smooth path some seconds ahead."""
+        p = self.parameters.planning.local_path
+        reach = max(p.goal_min_m, p.goal_s * ego.speed_mps)
+        i = int(np.searchsorted(self.route.arc_m, self.here.arc_m + reach))
+        x, y = self.route.position_m[min(i, len(self.route.arc_m) - 1)] - ego.position_m
+        return atan2(float(y), float(x))
+
+    def _boundaries(self, obstacles: ObstacleMap) -> Boundaries:
+        foot = self.parameters.planning.footprint
+        depth = self._corridor_depth(obstacles)
+        level = obstacles.boundaries(
+            foot.real_radius_m,
+            foot.safe_radius_m,
+            depth < foot.corridor_real_m,
+            depth < foot.corridor_safe_m,
+        )
+        return Boundaries(level, obstacles.origin_m, obstacles.cell_m)
+
+    def _corridor_depth(self, obstacles: ObstacleMap) -> NDArray[np.float32]:
+        """How far inside the corridor each cell lies; redrawn when map or segment have moved."""
+        segment = int(self.route.segment[self.here.index])
+        end = int(np.searchsorted(self.route.arc_m, self.here.arc_m + CORRIDOR_AHEAD_M))
+        last = int(self.route.segment[min(end, len(self.route.arc_m) - 1)]) + 1
+        first = max(0, segment - CORRIDOR_BEHIND)
+        key = (obstacles.origin_m, first, last)
+        if self._corridor is None or self._corridor[0] != key:
+            lattice = Lattice(obstacles.shape, obstacles.origin_m, obstacles.cell_m)
+            w = self.waypoints
+            drawn = corridor_distance(lattice, w.position_m, w.half_width_m, first, last)
+            self._corridor = (key, drawn)
+        return self._corridor[1]
+
+    def _decision(self, s: Situation, plan: Plan) -> Decision:
+        return Decision(
+            time_ns=s.time_ns,
+            state=self.machine.state,
+            reason=self.machine.reason,
+            replanned=plan.replanned,
+            waypoint=s.waypoint,
+            goal_rad=s.goal_rad,
+            decision_rad=plan.decision_rad,
+            selected=plan.selected,
+            D1_m=plan.D1_m,
+            D_m=plan.D_m,
+            V0_mps=s.V0_mps,
+            speed_mps=plan.speed_mps,
+            cross_track_m=s.cross_track_m,
+        )

@@ -1,0 +1,49 @@
+"""Parameters of the low-level controller."""
+
+from dataclasses import dataclass
+
+
+@dataclass(frozen=True)
+class PathFollowing:
+    """Feedback on the pose that the vehicle will have when steering answers."""
+
+    delay_s: float
+    """Steering answers this late."""
+    length_m: float
+    """An offset decays over this length ..."""
+    length_s: float
+    """... or this time at higher speed."""
+    damping: float
+    heading_limit_rad: float
+    """Offset never asks for a larger approach angle than this."""
+
+
+@dataclass(frozen=True)
+class SpeedControl:
+    """PI control of speed on throttle, proportional on brake."""
+
+    feedforward_per_mps: float
+    feedforward: float
+    proportional: float
+    integral: float
+    integral_limit: float
+    brake_proportional: float
+    brake_band_mps: float
+    """Overspeed below this is left to engine braking."""
+    acceleration_mps2: float
+    """The set point rises no faster than this."""
+    hold_brake: float
+    stop_mps: float
+    """A set point below this means: stand still."""
+    stand_mps: float
+    """Below this speed the vehicle counts as standing."""
+
+
+@dataclass(frozen=True)
+class ControlParameters:
+    """`control.toml`."""
+
+    path: PathFollowing
+    speed: SpeedControl
+    command_timeout_s: float
+    """Without a fresh command of the high-level controller the vehicle stops."""

@@ -1,0 +1,72 @@
+"""Parameters of the high-level controller's path planning."""
+
+from dataclasses import dataclass
+
+
+@dataclass(frozen=True)
+class Footprint:
+    """The vehicle as discs along its axis, so that paths are checked with its whole length."""
+
+    disc_x_m: tuple[float, ...]
+    """Centres, vehicle frame."""
+    real_radius_m: float
+    """Half the vehicle (section 6.4.2.1): covers the outline, plus half a cell."""
+    safe_radius_m: float
+    """The further enlargement."""
+    corridor_real_m: float
+    """A disc's centre stays this far inside the corridor's edge."""
+    corridor_safe_m: float
+
+
+@dataclass(frozen=True)
+class Scanning:
+    """The fan of directions of Fig. 6.6."""
+
+    directions: int
+    """Odd, so that straight ahead is one of them."""
+    half_angle_rad: float
+    max_distance_m: float
+    """d_max."""
+    step_m: float
+    turn_radius_m: tuple[float, ...]
+    """Radii of the turns towards a direction; the tightest that the speed allows is used."""
+
+
+@dataclass(frozen=True)
+class LocalPathParameters:
+    """The ten pathpoints of section 6.4."""
+
+    horizon_s: float
+    min_length_m: float
+    max_length_m: float
+    join_radius_m: float
+    """A lateral offset is taken back on a curve no tighter than this."""
+    join_offset_m: float
+    """Below this offset the path is the smooth path itself."""
+    goal_s: float
+    """The goal point lies this far ahead on the smooth path, in seconds ..."""
+    goal_min_m: float
+    """... and at least this far, in metres."""
+
+
+@dataclass(frozen=True)
+class SpeedProfileParameters:
+    """Speed along the route before any obstacle is known."""
+
+    lateral_mps2: float
+    braking_mps2: float
+    cap_mps: float
+    limit_factor: float
+    """Share of the speed limit that is aimed at, so that control errors stay below it."""
+    narrow_mps: float
+    """Where the path runs inside a safe boundary."""
+
+
+@dataclass(frozen=True)
+class PlanningParameters:
+    """`planning.toml`."""
+
+    footprint: Footprint
+    scanning: Scanning
+    local_path: LocalPathParameters
+    speed: SpeedProfileParameters

@@ -1,0 +1,59 @@
+"""The corridor's edges on the map's lattice, as boundaries: real and safe."""
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from nav.messages import Floats
+
+
+@dataclass(frozen=True, eq=False)
+class Lattice:
+    """Where the cells of the local map lie."""
+
+    shape: tuple[int, int]
+    """Rows (y) and columns (x)."""
+    origin_m: tuple[float, float]
+    cell_m: float
+
+
+def corridor_distance(
+    lattice: Lattice, position_m: Floats, half_width_m: Floats, first: int, last: int
+) -> NDArray[np.float32]:
+    """How far inside the corridor every cell's centre lies, negative outside, [m].
+
+    The corridor is the union of the segments' rectangles and the discs at their waypoints: of
+    all points closer to a segment than its half-width.
+
+    Args:
+        position_m: waypoints, shape (n, 2).
+        half_width_m: shape (n,), of the segment that starts at the waypoint.
+        first, last: segments first..last-1 are drawn.
+    """
+    inside = np.full(lattice.shape, -1e3, dtype=np.float32)
+    for i in range(first, last):
+        _draw(inside, lattice, position_m[i], position_m[i + 1], float(half_width_m[i]))
+    return inside
+
+
+def _draw(
+    inside: NDArray[np.float32], lattice: Lattice, a: Floats, b: Floats, half_width_m: float
+) -> None:
+    rows, y = _span(lattice, 1, min(a[1], b[1]) - half_width_m, max(a[1], b[1]) + half_width_m)
+    columns, x = _span(lattice, 0, min(a[0], b[0]) - half_width_m, max(a[0], b[0]) + half_width_m)
+    if not len(x) or not len(y):
+        return
+    along = b - a
+    dx, dy = (x - a[0])[None, :], (y - a[1])[:, None]
+    t = np.clip((dx * along[0] + dy * along[1]) / float(along @ along), 0.0, 1.0)
+    distance = np.hypot(dx - t * along[0], dy - t * along[1])
+    window = inside[rows, columns]
+    np.maximum(window, half_width_m - distance, out=window, casting="same_kind")
+
+
+def _span(lattice: Lattice, axis: int, low_m: float, high_m: float) -> tuple[slice, Floats]:
+    origin, count = lattice.origin_m[axis], lattice.shape[1 - axis]
+    low = max(0, int(np.floor((low_m - origin) / lattice.cell_m)))
+    high = min(count, int(np.ceil((high_m - origin) / lattice.cell_m)))
+    return slice(low, max(low, high)), origin + (np.arange(low, high) + 0.5) * lattice.cell_m

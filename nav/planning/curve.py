@@ -1,0 +1,55 @@
+"""A sampled plane curve, and the Catmull-Rom cubic (6.1), (6.4) through points."""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from nav.messages import Floats
+from nav.route.rounding import arc_of
+from nav.route.smooth_path import catmull_rom
+
+SAMPLES = 6
+"""Per piece between two points."""
+
+
+@dataclass(frozen=True, eq=False)
+class Curve:
+    """Samples of a curve in the route frame N."""
+
+    position_m: Floats
+    """Shape (k, 2)."""
+    heading_rad: Floats
+    """Shape (k,), of the tangent."""
+    curvature_per_m: Floats
+    """Shape (k,), left positive."""
+    arc_m: Floats
+    """Shape (k,), from the first sample."""
+
+
+def curve_through(points_m: Floats) -> Curve:
+    """The curve (6.1) with coefficients (6.4) through `points_m`, shape (n, 2)."""
+    position, tangent, second = catmull_rom(points_m, SAMPLES)
+    speed = np.maximum(np.hypot(tangent[:, 0], tangent[:, 1]), 1e-6)
+    bend = (tangent[:, 0] * second[:, 1] - tangent[:, 1] * second[:, 0]) / speed**3
+    heading = np.unwrap(np.arctan2(tangent[:, 1], tangent[:, 0]))
+    return Curve(position, heading, bend, arc_of(position))
+
+
+def sampled(position_m: Floats) -> Curve:
+    """Heading, curvature and arc of a dense polyline, shape (k, 2), by differences."""
+    step = np.diff(position_m, axis=0)
+    length = np.hypot(step[:, 0], step[:, 1])
+    direction = np.unwrap(np.arctan2(step[:, 1], step[:, 0]))
+    middle = 0.5 * (direction[:-1] + direction[1:])
+    heading = np.concatenate([[direction[0]], middle, [direction[-1]]])
+    bend = np.diff(direction) / np.maximum(0.5 * (length[:-1] + length[1:]), 1e-6)
+    inner = bend if len(bend) else np.zeros(1)
+    curvature = np.concatenate([[inner[0]], bend, [inner[-1]]])
+    return Curve(position_m, heading, curvature, arc_of(position_m))
+
+
+def resampled(curve: Curve, arc_m: Floats) -> Floats:
+    """Positions (n, 2) at arcs (n,) by linear interpolation."""
+    x = np.interp(arc_m, curve.arc_m, curve.position_m[:, 0])
+    y = np.interp(arc_m, curve.arc_m, curve.position_m[:, 1])
+    return np.stack([x, y], axis=1)

@@ -1,0 +1,22 @@
+"""Speed along the route before any obstacle is known: limits, bends, and braking for both."""
+
+import numpy as np
+
+from nav.messages import Floats
+from nav.parameters.planning import SpeedProfileParameters
+from nav.route.smooth_path import SmoothPath
+
+
+def speed_profile(route: SmoothPath, p: SpeedProfileParameters) -> Floats:
+    """V0 at every sample of the smooth path, shape (k,), [m/s].
+
+    Never above the speed limit, the cap or what the bend allows, and falling no faster towards
+    what lies ahead than `braking_mps2`.
+    """
+    bend = np.sqrt(p.lateral_mps2 / np.maximum(np.abs(route.curvature_per_m), 1e-4))
+    limit = np.minimum(p.limit_factor * route.speed_limit_mps, p.cap_mps)
+    squared = np.minimum(limit, bend) ** 2
+    gained = 2.0 * p.braking_mps2 * route.arc_m
+    # v_i^2 <= v_j^2 + 2 a (s_j - s_i) for all j >= i is a running minimum from behind
+    reachable = np.minimum.accumulate((squared + gained)[::-1])[::-1] - gained
+    return np.sqrt(reachable)

@@ -1,0 +1,34 @@
+"""Path-Point Keeping: follow the smooth path of the route (section 6.4.1)."""
+
+from math import sqrt
+
+from nav.parameters import Parameters
+from nav.planning.angles import wrapped
+from nav.planning.local_path import path_length, pathpoints
+from nav.planning.speed import set_point
+from nav.states.memory import Memory
+from nav.states.replanning import due
+from nav.states.situation import Plan, Situation
+
+NAME = "path_point_keeping"
+
+
+def plan(s: Situation, memory: Memory, p: Parameters) -> Plan:
+    """Ten points of the smooth path; slow where it runs inside a safe boundary."""
+    reason = due(s, memory, p)
+    if reason or memory.pathpoint_m is None:
+        length = path_length(s.ego.speed_mps, p.planning.local_path)
+        memory.follow(pathpoints(s.route_ahead, length), s.waypoint)
+    assert memory.pathpoint_m is not None
+    direction = float(s.route_ahead.heading_rad[min(4, len(s.route_ahead.heading_rad) - 1)])
+    turn = abs(wrapped(direction - s.ego.heading_rad))
+    limit = min(s.V0_mps, _through_narrows(s, p))
+    distance = s.route_real_m
+    speed = set_point(distance, distance, turn, limit, "safe", p.speed).speed_mps
+    return Plan(memory.pathpoint_m, speed, distance, distance, direction, replanned=reason)
+
+
+def _through_narrows(s: Situation, p: Parameters) -> float:
+    """Speed from which braking reaches `narrow_mps` where the safe boundary begins."""
+    speed = p.planning.speed
+    return sqrt(speed.narrow_mps**2 + 2.0 * speed.braking_mps2 * s.route_safe_m)

@@ -1,0 +1,35 @@
+"""When a new local path is due: the left half of Fig. 6.4."""
+
+import numpy as np
+
+from nav.messages import Floats
+from nav.parameters import Parameters
+from nav.planning.curve import Curve
+from nav.planning.local_path import FIFTH, clear_distances
+from nav.states.memory import Memory
+from nav.states.situation import Situation
+
+
+def due(s: Situation, memory: Memory, p: Parameters) -> str:
+    """Why the local path must be made anew, or empty."""
+    if memory.curve is None or memory.pathpoint_m is None:
+        return "new state"
+    if s.waypoint != memory.waypoint:
+        return "waypoint passed"
+    here = _index(memory.curve, s.ego.position_m)
+    if here >= _index(memory.curve, memory.pathpoint_m[FIFTH]):
+        return "fifth pathpoint reached"
+    ahead = _rest(memory.curve, here)
+    clear, _ = clear_distances(ahead, s.boundaries, p.planning.footprint)
+    return "path crosses an obstacle" if clear < ahead.arc_m[-1] else ""
+
+
+def _index(curve: Curve, point_m: Floats) -> int:
+    d = curve.position_m - point_m
+    return int(np.argmin(d[:, 0] ** 2 + d[:, 1] ** 2))
+
+
+def _rest(curve: Curve, index: int) -> Curve:
+    i = min(index, len(curve.arc_m) - 2)
+    arc = curve.arc_m[i:] - curve.arc_m[i]
+    return Curve(curve.position_m[i:], curve.heading_rad[i:], curve.curvature_per_m[i:], arc)

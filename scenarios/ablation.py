@@ -1,0 +1,23 @@
+"""What `--ablate` can take away, to see whether a course is worth passing."""
+
+from twin.sensors.suite import SENSORS
+
+LIDARS = tuple(name for name in SENSORS if name.startswith("lidar_"))
+
+ABLATIONS: dict[str, frozenset[str]] = {
+    "blind": frozenset({*LIDARS, "sonar"}),
+    "no-lidar": frozenset(LIDARS),
+    **{f"no-{name.replace('_', '-')}": frozenset({name}) for name in SENSORS},
+}
+"""Ablation to the sensors that fall silent."""
+
+
+def disabled_sensors(ablate: tuple[str, ...]) -> frozenset[str]:
+    """The sensors that are silent under these ablations.
+
+    Raises:
+        ValueError: an unknown ablation; lists those that exist.
+    """
+    if unknown := [name for name in ablate if name not in ABLATIONS]:
+        raise ValueError(f"--ablate {unknown[0]}: unknown; known are {', '.join(ABLATIONS)}")
+    return frozenset().union(*(ABLATIONS[name] for name in ablate))

@@ -1,0 +1,104 @@
+"""One episode is one object: world, twin, navigator, judge and digest. Picklable in the middle."""
+
+from importlib.resources import files
+from typing import Any
+
+from nav import parameters
+from nav.messages import ActuatorTargets, Decision, EgoEstimate, Gear, Message
+from nav.navigator import IonNavigator
+from nav.parameters import Parameters, parameters_from
+from nav.route import rddf
+from scenarios.ablation import disabled_sensors
+from scenarios.course import Course
+from scenarios.verdicts import Judge
+from tape.digest import Digest
+from tape.record import Record, record
+from twin.simulator import Simulator
+from twin.truth import Truth
+
+
+def parameter_texts() -> dict[str, str]:
+    """The parameter files that come with the navigator, by name."""
+    folder = files(parameters)
+    return {name: (folder / name).read_text(encoding="utf-8") for name in parameters.FILES}
+
+
+class Episode:
+    """A pure function of (course, seed, parameters), unrolled tick by tick.
+
+    Args:
+        course: what is driven.
+        seed: draws noise, sensor mounting and gear shifts.
+        ablate: what is crippled, see `scenarios.ablation`.
+        nav_parameters: the navigator's; those that come with it by default.
+
+    Raises:
+        NavError: a route or parameters that the navigator refuses.
+        ValueError: an unknown ablation.
+    """
+
+    def __init__(
+        self,
+        course: Course,
+        seed: int,
+        ablate: tuple[str, ...] = (),
+        nav_parameters: Parameters | None = None,
+    ) -> None:
+        self.course, self.seed, self.ablate = course, seed, ablate
+        route = rddf.parse(course.route_text, course.route_name)
+        chosen = nav_parameters or parameters_from(parameter_texts())
+        self.navigator = IonNavigator(chosen, route)
+        self.simulator = Simulator(course.world, seed, disabled_sensors(ablate))
+        self.judge = Judge(course)
+        self.digest = Digest()
+        self.truth: Truth = self.simulator.truth()
+        self.targets = ActuatorTargets(0, 0.0, 0.0, 1.0, Gear.HIGH)
+        self.estimate: EgoEstimate | None = None
+        self.decision: Decision | None = None
+
+    @property
+    def time_s(self) -> float:
+        """Simulated time, [s]."""
+        return self.simulator.time_ns * 1e-9
+
+    @property
+    def state(self) -> str:
+        """The navigator's state (Fig. 6.3)."""
+        return self.navigator.state
+
+    @property
+    def outcome(self) -> str | None:
+        """None while it runs; then `finished`, or one word for why not."""
+        return self.judge.outcome
+
+    def tick(self) -> list[Record]:
+        """20 ms: what crossed the navigator's boundary, in order of delivery."""
+        sensed = self.simulator.advance(self.targets)
+        now = self.simulator.time_ns
+        outputs = self.navigator.step(now, sensed)
+        self.targets = outputs.targets
+        for report in outputs.reports:
+            self._remember(report)
+        self.truth = self.simulator.truth()
+        self.judge.observe(self.truth, self.estimate, self.decision)
+        records = [record(now, m) for m in (*sensed, *outputs.reports, outputs.targets)]
+        for item in records:
+            self.digest.update(item)
+        return records
+
+    def _remember(self, report: Message) -> None:
+        if isinstance(report, EgoEstimate):
+            self.estimate = report
+        elif isinstance(report, Decision):
+            self.decision = report
+
+    def figures(self) -> dict[str, Any]:
+        """What the judge measured, and the digest."""
+        return {
+            "scenario": self.course.name,
+            "seed": self.seed,
+            "outcome": self.outcome,
+            "sim_time_s": round(self.time_s, 3),
+            **self.judge.figures(),
+            "digest": self.digest.hex(),
+        }

@@ -1,0 +1,56 @@
+"""The twin: a vehicle with its sensors in one world, advanced one navigator tick at a time."""
+
+from nav.messages import ActuatorTargets, SensorMessage
+from twin import assembly, clock
+from twin.plant import Plant
+from twin.raycast import Scene
+from twin.sensors.suite import SensorSuite
+from twin.terrain import TerrainWindow
+from twin.truth import Truth
+from twin.world import World
+
+TICK_STEPS = 6
+"""Physics steps in one navigator tick of 20 ms."""
+
+
+class Simulator:
+    """One world in motion. Picklable in the middle; goes on with the same bits."""
+
+    def __init__(self, world: World, seed: int, disabled: frozenset[str] = frozenset()) -> None:
+        x, y, heading = world.start
+        self.window = TerrainWindow(world.terrain, x, y)
+        model = assembly.compile(world, self.window)
+        self.scene = Scene(world.obstacles)
+        self._see_ground()
+        ground = float(world.terrain.height(*_point(x, y)))
+        self.plant = Plant(model, (x, y, ground, heading), seed, assembly.owners(world))
+        self.sensors = SensorSuite(world, self.scene, seed, disabled)
+
+    @property
+    def time_ns(self) -> int:
+        """Time since the start, [ns]."""
+        return clock.time_ns(self.plant.k)
+
+    def advance(self, targets: ActuatorTargets) -> list[SensorMessage]:
+        """Drive for 20 ms under `targets`; the messages delivered meanwhile, in their order."""
+        self.plant.apply(self.time_ns, targets)
+        delivered: list[SensorMessage] = []
+        for _ in range(TICK_STEPS):
+            self.plant.step()
+            delivered += self.sensors.poll(self.plant)
+        self._follow()
+        return delivered
+
+    def truth(self) -> Truth:
+        """The true state, for judges and pictures only."""
+        return self.plant.truth()
+
+    def _follow(self) -> None:
+        x, y = self.plant.position_m[:2]
+        if self.window.recenter(float(x), float(y)):
+            self.window.write_hfield(self.plant.model, self.plant.data)
+            self._see_ground()
+
+    def _see_ground(self) -> None:
+        w = self.window
+        self.scene.set_ground(w.z, w.x0, w.y0, w.spacing)
