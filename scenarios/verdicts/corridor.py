@@ -1,0 +1,69 @@
+"""Where the vehicle is on the route, and whether its tires stay inside the corridor."""
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from nav.route.corridor import depth
+from nav.route.waypoints import Waypoints
+
+Floats = NDArray[np.float64]
+
+SEGMENTS_EACH_WAY = 2
+"""The corridor here and now is that of the segments n-2 to n+2 (design: departure)."""
+MERGE_NS = 1_000_000_000
+"""Two departures less than this apart are one."""
+
+
+@dataclass
+class Progress:
+    """Counts waypoints: one is passed when the reference point crosses the line that halves its
+    corner, the first when the drive begins."""
+
+    waypoint_m: Floats
+    """Shape (n, 2), world frame."""
+    segment: int = 0
+    """Index of the segment that the vehicle is on; n - 1 behind the last waypoint."""
+
+    def __post_init__(self) -> None:
+        step = np.diff(self.waypoint_m, axis=0)
+        unit = step / np.linalg.norm(step, axis=1, keepdims=True)
+        self._along = (np.vstack([unit, unit[-1:]]) + np.vstack([unit[:1], unit])).tolist()
+        self._waypoints: list[list[float]] = self.waypoint_m.tolist()
+
+    def observe(self, x: float, y: float) -> None:
+        """Take the reference point's position, [m]."""
+        while not self.finished and self._beyond(self.segment + 1, x, y):
+            self.segment += 1
+
+    def _beyond(self, waypoint: int, x: float, y: float) -> bool:
+        (wx, wy), (tx, ty) = self._waypoints[waypoint], self._along[waypoint]
+        return (x - wx) * tx + (y - wy) * ty >= 0.0
+
+    @property
+    def passed(self) -> int:
+        """How many waypoints lie behind."""
+        return self.segment + 1
+
+    @property
+    def finished(self) -> bool:
+        """True behind the last waypoint."""
+        return self.segment == len(self._waypoints) - 1
+
+
+@dataclass
+class Departures:
+    """Counts the times that any tire's centre left the corridor."""
+
+    waypoints: Waypoints
+    """In the world frame."""
+    count: int = 0
+    _last_ns: int = -MERGE_NS - 1
+
+    def observe(self, time_ns: int, segment: int, tire_m: Floats) -> None:
+        """Take the tires' centres, shape (k, 2) [m], and the segment that the vehicle is on."""
+        first, last = segment - SEGMENTS_EACH_WAY, segment + SEGMENTS_EACH_WAY
+        if depth(tire_m, self.waypoints, first, last).min() < 0.0:
+            self.count += time_ns - self._last_ns > MERGE_NS
+            self._last_ns = time_ns

@@ -1,0 +1,166 @@
+"""Plan-view geometry: the footprints of obstacles and their distance to the vehicle's outline."""
+
+import math
+from collections.abc import Sequence
+from typing import NamedTuple
+
+import numpy as np
+from numba import njit
+from numpy.typing import NDArray
+
+from twin.world import Obstacle
+
+Floats = NDArray[np.float64]
+
+CORNERS = 8
+"""Most corners of a box seen from above; hulls with fewer repeat their last one."""
+
+
+Pose = tuple[float, float, float]
+"""x, y [m] and heading [rad] of the reference point, world frame."""
+
+
+class Outline(NamedTuple):
+    """The vehicle's rectangle, 120 x 60 in, in the vehicle frame [m] (published)."""
+
+    front_m: float = 2.10
+    rear_m: float = -0.95
+    half_width_m: float = 0.762
+
+    def corners_m(self, pose: Pose) -> list[tuple[float, float]]:
+        """The four corners in the world, in order around the outline."""
+        x, y, heading = pose
+        c, s, w = math.cos(heading), math.sin(heading), self.half_width_m
+        local = ((self.front_m, -w), (self.front_m, w), (self.rear_m, w), (self.rear_m, -w))
+        return [(x + c * u - s * v, y + s * u + c * v) for u, v in local]
+
+
+class Footprints(NamedTuple):
+    """Convex shapes on the ground, world frame: a hull, and a radius around it."""
+
+    corner_m: Floats
+    """Shape (n, 8, 2), counter-clockwise."""
+    radius_m: Floats
+    """Shape (n,): of a cylinder, whose hull is its axis; 0 for boxes."""
+
+
+def footprints(obstacles: Sequence[Obstacle]) -> Footprints:
+    """The shadows of obstacles under a sun in the zenith; boxes may be tilted."""
+    corner_m = np.array([_hull(obstacle) for obstacle in obstacles])
+    radius_m = [o.half_size_m[0] if o.shape == "cylinder" else 0.0 for o in obstacles]
+    return Footprints(corner_m.reshape(-1, CORNERS, 2), np.array(radius_m, dtype=np.float64))
+
+
+def bottom_m(obstacle: Obstacle) -> float:
+    """Height of an obstacle's lowest point, [m]."""
+    reach = np.abs(_rotation(obstacle.quat)[2]) @ np.array(obstacle.half_size_m)
+    return obstacle.center_m[2] - float(reach)
+
+
+def distances_m(outline: Outline, pose: Pose, shapes: Footprints) -> Floats:
+    """Exact plan-view distance from the outline to each shape, 0 where they overlap.
+
+    Args:
+        outline: the vehicle.
+        pose: of the vehicle.
+        shapes: n footprints.
+
+    Returns:
+        Shape (n,), [m].
+    """
+    local = _to_center(outline, pose, shapes.corner_m)
+    half_length = 0.5 * (outline.front_m - outline.rear_m)
+    return _distances(half_length, outline.half_width_m, local, shapes.radius_m)
+
+
+def _to_center(outline: Outline, pose: Pose, point_m: Floats) -> Floats:
+    """World points in the frame of the outline's centre."""
+    x, y, heading = pose
+    c, s, middle = math.cos(heading), math.sin(heading), 0.5 * (outline.front_m + outline.rear_m)
+    center = np.array([x + c * middle, y + s * middle])
+    return (point_m - center) @ np.array([[c, -s], [s, c]])
+
+
+@njit(cache=True)
+def _distances(hx: float, hy: float, polygons: Floats, radius_m: Floats) -> Floats:
+    distance = np.empty(len(polygons))
+    for i in range(len(polygons)):
+        distance[i] = max(_rectangle_to_polygon(hx, hy, polygons[i]) - radius_m[i], 0.0)
+    return distance
+
+
+@njit(cache=True)
+def _rectangle_to_polygon(hx: float, hy: float, polygon: Floats) -> float:
+    """Between convex shapes that do not overlap, the nearest pair of points has a corner of one
+    of them; whether they overlap, the separating axes tell."""
+    nearest2 = np.inf
+    low_x, high_x, low_y, high_y = np.inf, -np.inf, np.inf, -np.inf
+    separated = False
+    for k in range(len(polygon)):
+        x, y = polygon[k]
+        ex, ey = polygon[(k + 1) % len(polygon)] - polygon[k]
+        low_x, high_x = min(low_x, x), max(high_x, x)
+        low_y, high_y = min(low_y, y), max(high_y, y)
+        nearest2 = min(nearest2, max(abs(x) - hx, 0.0) ** 2 + max(abs(y) - hy, 0.0) ** 2)
+        outside, edge2 = _corners_to_edge(hx, hy, (x, y), (ex, ey))
+        nearest2 = min(nearest2, edge2)
+        separated = separated or outside
+    separated = separated or low_x > hx or high_x < -hx or low_y > hy or high_y < -hy
+    return math.sqrt(nearest2) if separated else 0.0
+
+
+@njit(cache=True)
+def _corners_to_edge(
+    hx: float, hy: float, start: tuple[float, float], edge: tuple[float, float]
+) -> tuple[bool, float]:
+    """Whether all corners of the rectangle lie right of an edge, and the nearest one's square."""
+    (ex, ey), outside, nearest2 = edge, True, np.inf
+    length2 = max(ex * ex + ey * ey, 1e-12)
+    for cx, cy in ((hx, hy), (hx, -hy), (-hx, hy), (-hx, -hy)):
+        px, py = cx - start[0], cy - start[1]
+        along = min(max((px * ex + py * ey) / length2, 0.0), 1.0)
+        nearest2 = min(nearest2, (px - along * ex) ** 2 + (py - along * ey) ** 2)
+        outside = outside and ey * px - ex * py > 0.0
+    return outside, nearest2
+
+
+def _hull(obstacle: Obstacle) -> Floats:
+    """Convex hull of an obstacle's shadow, shape (8, 2), counter-clockwise."""
+    center = np.array(obstacle.center_m[:2])
+    if obstacle.shape == "cylinder":
+        return np.tile(center, (CORNERS, 1))
+    signs = np.array(np.meshgrid([-1, 1], [-1, 1], [-1, 1])).reshape(3, -1).T
+    corner = (signs * obstacle.half_size_m) @ _rotation(obstacle.quat).T
+    hull = convex_hull(corner[:, :2])
+    repeated = np.vstack([hull, np.tile(hull[-1], (CORNERS - len(hull), 1))])
+    return repeated + center
+
+
+def convex_hull(point_m: Floats) -> Floats:
+    """Andrew's monotone chain: the corners of the hull, counter-clockwise."""
+    order = sorted({(round(x, 9), round(y, 9)) for x, y in point_m.tolist()})
+    chains = [_chain(order), _chain(order[::-1])]
+    return np.array(chains[0][:-1] + chains[1][:-1] or order)
+
+
+def _chain(points: list[tuple[float, float]]) -> list[tuple[float, float]]:
+    chain: list[tuple[float, float]] = []
+    for point in points:
+        while len(chain) > 1 and not _turns_left(chain[-2], chain[-1], point):
+            chain.pop()
+        chain.append(point)
+    return chain
+
+
+def _turns_left(a: tuple[float, float], b: tuple[float, float], c: tuple[float, float]) -> bool:
+    return (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]) > 1e-9
+
+
+def _rotation(quat: tuple[float, float, float, float]) -> Floats:
+    """Rotation matrix of a unit quaternion w x y z."""
+    w, x, y, z = quat
+    return np.array([
+        [1 - 2 * (y * y + z * z), 2 * (x * y - w * z), 2 * (x * z + w * y)],
+        [2 * (x * y + w * z), 1 - 2 * (x * x + z * z), 2 * (y * z - w * x)],
+        [2 * (x * z - w * y), 2 * (y * z + w * x), 1 - 2 * (x * x + y * y)],
+    ])  # fmt: skip
