@@ -142,7 +142,7 @@ def test_projection_is_left_positive_and_local():
     assert place.arc_m == pytest.approx(20.1)
     assert project(path, np.array([20.1, -2.0]), 30).cross_track_m == pytest.approx(-2.0)
     back = project(path, np.array([20.0, 16.0]), len(path.arc_m) - 40)
-    assert back.sample > len(path.arc_m) // 2
+    assert back.index > len(path.arc_m) // 2
     assert back.cross_track_m == pytest.approx(14.0)
 
 

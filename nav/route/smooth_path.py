@@ -48,7 +48,7 @@ class SmoothPath:
 class Projection(NamedTuple):
     """Where a point stands beside the path."""
 
-    sample: int
+    index: int  # pyright: ignore[reportIncompatibleMethodOverride]  (tuple has one, unused)
     """The nearest sample."""
     cross_track_m: float
     """Signed offset from the path, left positive."""
