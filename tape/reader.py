@@ -1,0 +1,119 @@
+"""Reads a tape in order of delivery, also one whose writer was killed."""
+
+import os
+import struct
+from collections.abc import Iterator
+from typing import Any, BinaryIO
+
+from mcap.exceptions import EndOfFile, McapError
+from mcap.records import Attachment, Channel, Chunk, Header, Message, Metadata, Schema
+from mcap.stream_reader import CRCValidationError, StreamReader, breakup_chunk
+from zstandard import ZstdError
+
+from nav.messages import MESSAGE_TYPES
+from tape.codec import decode
+from tape.errors import TapeError
+from tape.record import PREFIX, PROFILE, Record
+from tape.schemas import schema_name
+
+Path = str | os.PathLike[str]
+
+MAGIC = b"\x89MCAP0\r\n"
+_KINDS = {schema_name(kind): kind for kind in MESSAGE_TYPES}
+
+
+def read(path: Path) -> Iterator[Record]:
+    """The records of a tape, in order of delivery; a cut end is simply where it ends.
+
+    Raises:
+        TapeError: no file, no MCAP file, no tape of ours, or damage before the end.
+    """
+    schemas: dict[int, str] = {}
+    channels: dict[int, tuple[str, Any]] = {}
+    for item in _items(path):
+        if isinstance(item, Schema):
+            schemas[item.id] = item.name
+        elif isinstance(item, Channel) and item.topic.startswith(PREFIX):
+            channels[item.id] = (item.topic, _kind(path, item.topic, schemas[item.schema_id]))
+        elif isinstance(item, Message) and item.channel_id in channels:
+            topic, kind = channels[item.channel_id]
+            yield Record(topic, item.log_time, decode(kind, item.data), item.data)
+
+
+def attachments(path: Path) -> dict[str, bytes]:
+    """The files attached to a tape, by name.
+
+    Raises:
+        TapeError: as `read`.
+    """
+    found = _items(path, chunks=True)
+    return {item.name: item.data for item in found if isinstance(item, Attachment)}
+
+
+def metadata(path: Path) -> dict[str, str]:
+    """The short texts of a tape: seed, versions, fingerprint.
+
+    Raises:
+        TapeError: as `read`.
+    """
+    for item in _items(path, chunks=True):
+        if isinstance(item, Metadata):
+            return item.metadata
+    return {}
+
+
+def _kind(path: Path, topic: str, name: str) -> Any:
+    if name not in _KINDS:
+        known = ", ".join(_KINDS)
+        raise TapeError(f"{path}: {topic} carries {name}, which is unknown; known are {known}")
+    return _KINDS[name]
+
+
+def _items(path: Path, chunks: bool = False) -> Iterator[Any]:
+    """All records of the file in its own order; with `chunks`, messages stay packed."""
+    try:
+        with open(path, "rb") as file:
+            closed = _check(path, file)
+            for item in _until_cut(path, _Whole(file), closed):
+                if isinstance(item, Chunk) and not chunks:
+                    yield from breakup_chunk(item, validate_crc=True)
+                else:
+                    yield item
+    except OSError as error:
+        raise TapeError(f"{path}: cannot be read: {error.strerror}") from error
+    except (McapError, CRCValidationError, ZstdError, struct.error) as error:
+        raise TapeError(f"{path}: damaged: {error}") from error
+
+
+def _check(path: Path, file: BinaryIO) -> bool:
+    """Refuse what is no MCAP file; say whether its writer closed it."""
+    if file.read(len(MAGIC)) != MAGIC:
+        raise TapeError(f"{path}: not a tape; expected an MCAP file written by tape.TapeWriter")
+    file.seek(-len(MAGIC), os.SEEK_END)
+    closed = file.tell() > 0 and file.read() == MAGIC
+    file.seek(0)
+    return closed
+
+
+def _until_cut(path: Path, file: "_Whole", closed: bool) -> Iterator[Any]:
+    try:
+        for item in StreamReader(file, emit_chunks=True).records:  # type: ignore[arg-type]
+            if isinstance(item, Header) and item.profile != PROFILE:
+                raise TapeError(f"{path}: MCAP of profile {item.profile!r}, expected {PROFILE!r}")
+            yield item
+    except EndOfFile as error:
+        if closed:
+            raise TapeError(f"{path}: damaged: a record is longer than the file") from error
+
+
+class _Whole:
+    """A file that gives all bytes asked for, or says that it ends."""
+
+    def __init__(self, file: BinaryIO) -> None:
+        self._file = file
+
+    def read(self, length: int) -> bytes:
+        data = self._file.read(length)
+        if len(data) < length:
+            raise EndOfFile
+        return data
