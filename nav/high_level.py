@@ -9,7 +9,8 @@ from numpy.typing import NDArray
 from nav.fusion.obstacle_map import ObstacleMap
 from nav.messages import Decision, DirectCommand, EgoEstimate, Floats, FollowPath
 from nav.parameters import Parameters
-from nav.planning.corridor_grid import Lattice, corridor_distance
+from nav.planning.boundaries import boundaries
+from nav.planning.corridor_grid import corridor_distance
 from nav.planning.local_path import clear_distances, route_ahead
 from nav.planning.scanning import Boundaries
 from nav.planning.speed_profile import speed_profile
@@ -89,11 +90,12 @@ class HighLevelController:
     def _boundaries(self, obstacles: ObstacleMap) -> Boundaries:
         foot = self.parameters.planning.footprint
         depth = self._corridor_depth(obstacles)
-        level = obstacles.boundaries(
-            foot.real_radius_m,
-            foot.safe_radius_m,
-            depth < foot.corridor_real_m,
-            depth < foot.corridor_safe_m,
+        level = boundaries(
+            obstacles.occupied().index,
+            obstacles.lattice.count,
+            obstacles.cell_m,
+            (foot.real_radius_m, foot.safe_radius_m),
+            (depth < foot.corridor_real_m, depth < foot.corridor_safe_m),
         )
         return Boundaries(level, obstacles.origin_m, obstacles.cell_m)
 
@@ -105,9 +107,10 @@ class HighLevelController:
         first = max(0, segment - CORRIDOR_BEHIND)
         key = (obstacles.origin_m, first, last)
         if self._corridor is None or self._corridor[0] != key:
-            lattice = Lattice(obstacles.shape, obstacles.origin_m, obstacles.cell_m)
             w = self.waypoints
-            drawn = corridor_distance(lattice, w.position_m, w.half_width_m, first, last)
+            drawn = corridor_distance(
+                obstacles.lattice, w.position_m, w.half_width_m, first, last
+            )
             self._corridor = (key, drawn)
         return self._corridor[1]
 

@@ -103,5 +103,5 @@ class IonNavigator:
         return dict(zip(self.parameters.vehicle.sonar_mounts, self._sonar.range_m.tolist()))
 
     def _cells(self, time_ns: int) -> ObstacleCells:
-        position, confidence = self.obstacles.occupied()
-        return ObstacleCells(time_ns, position, confidence)
+        cells = self.obstacles.occupied()
+        return ObstacleCells(time_ns, cells.position_m, cells.confidence)

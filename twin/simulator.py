@@ -1,5 +1,7 @@
 """The twin: a vehicle with its sensors in one world, advanced one navigator tick at a time."""
 
+import numpy as np
+
 from nav.messages import ActuatorTargets, SensorMessage
 from twin import assembly, clock
 from twin.plant import Plant
@@ -22,7 +24,7 @@ class Simulator:
         model = assembly.compile(world, self.window)
         self.scene = Scene(world.obstacles)
         self._see_ground()
-        ground = float(world.terrain.height(*_point(x, y)))
+        ground = float(world.terrain.height(np.array([x]), np.array([y]))[0])
         self.plant = Plant(model, (x, y, ground, heading), seed, assembly.owners(world))
         self.sensors = SensorSuite(world, self.scene, seed, disabled)
 
@@ -46,7 +48,7 @@ class Simulator:
         return self.plant.truth()
 
     def _follow(self) -> None:
-        x, y = self.plant.position_m[:2]
+        x, y, _ = self.plant.site_pose("reference")[0]
         if self.window.recenter(float(x), float(y)):
             self.window.write_hfield(self.plant.model, self.plant.data)
             self._see_ground()

@@ -6,12 +6,11 @@ from typing import Any, get_type_hints
 
 from nav.parameters.control import ControlParameters
 from nav.parameters.ego_state import EgoParameters
+from nav.parameters.fuzzy import SpeedParameters, SteeringParameters
 from nav.parameters.loader import ParameterError, from_toml
-from nav.parameters.obstacle_map import MapParameters
+from nav.parameters.obstacle_map import ObstacleMapParameters
 from nav.parameters.planning import PlanningParameters
-from nav.parameters.speed import SpeedParameters
 from nav.parameters.states import StateParameters
-from nav.parameters.steering import SteeringParameters
 from nav.parameters.vehicle import VehicleParameters
 
 __all__ = ["FILES", "ParameterError", "Parameters", "parameters_from"]
@@ -23,7 +22,7 @@ class Parameters:
 
     vehicle: VehicleParameters
     ego_state: EgoParameters
-    obstacle_map: MapParameters
+    obstacle_map: ObstacleMapParameters
     planning: PlanningParameters
     steering: SteeringParameters
     speed: SpeedParameters

@@ -1,21 +1,10 @@
 """The corridor's edges on the map's lattice, as boundaries: real and safe."""
 
-from dataclasses import dataclass
-
 import numpy as np
 from numpy.typing import NDArray
 
+from nav.fusion.lattice import Lattice
 from nav.messages import Floats
-
-
-@dataclass(frozen=True, eq=False)
-class Lattice:
-    """Where the cells of the local map lie."""
-
-    shape: tuple[int, int]
-    """Rows (y) and columns (x)."""
-    origin_m: tuple[float, float]
-    cell_m: float
 
 
 def corridor_distance(
@@ -31,7 +20,7 @@ def corridor_distance(
         half_width_m: shape (n,), of the segment that starts at the waypoint.
         first, last: segments first..last-1 are drawn.
     """
-    inside = np.full(lattice.shape, -1e3, dtype=np.float32)
+    inside = np.full((lattice.count, lattice.count), -1e3, dtype=np.float32)
     for i in range(first, last):
         _draw(inside, lattice, position_m[i], position_m[i + 1], float(half_width_m[i]))
     return inside
@@ -53,7 +42,7 @@ def _draw(
 
 
 def _span(lattice: Lattice, axis: int, low_m: float, high_m: float) -> tuple[slice, Floats]:
-    origin, count = lattice.origin_m[axis], lattice.shape[1 - axis]
+    origin, count = lattice.origin_m[axis], lattice.count
     low = max(0, int(np.floor((low_m - origin) / lattice.cell_m)))
     high = min(count, int(np.ceil((high_m - origin) / lattice.cell_m)))
     return slice(low, max(low, high)), origin + (np.arange(low, high) + 0.5) * lattice.cell_m

@@ -16,7 +16,7 @@ class Memory:
     """Through the pathpoints."""
     waypoint: int = 0
     """The waypoint that was ahead when the local path was made."""
-    theta_D_rad: float | None = None
+    decision_rad: float | None = None
     """theta_D(k - 1)."""
     axis: tuple[float, float, float] | None = None
     """Of the tunnel: x, y of a point on it and its heading."""
@@ -30,4 +30,4 @@ class Memory:
 
     def forget(self) -> None:
         """A new state starts with a new local path."""
-        self.pathpoint_m = self.curve = self.theta_D_rad = self.axis = self.open_ns = None
+        self.pathpoint_m = self.curve = self.decision_rad = self.axis = self.open_ns = None

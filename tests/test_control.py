@@ -1,0 +1,90 @@
+"""The low-level controller: limits, braking, path following on a kinematic vehicle."""
+
+from math import cos, pi, sin, tan
+
+import numpy as np
+import pytest
+
+from nav.control.limits import limited
+from nav.control.low_level import LowLevelController
+from nav.control.path_following import steering_angle
+from nav.control.speed import SpeedController
+from nav.messages import EgoEstimate, FollowPath, Gear, VehicleState
+from nav.parameters import parameters_from
+from scenarios.episode import parameter_texts
+
+P = parameters_from(parameter_texts())
+TICK_NS = 20_000_000
+
+
+def ego(x=0.0, y=0.0, heading=0.0, speed=3.0, yaw_rate=0.0, time_ns=0) -> EgoEstimate:
+    return EgoEstimate(time_ns, [x, y], heading, speed, yaw_rate, 0.0, 0.0, 0.1, 0.01)
+
+
+def vehicle(time_ns=0, gear=Gear.HIGH, shifting=False) -> VehicleState:
+    return VehicleState(time_ns, [0.0] * 6, 0.0, 0.0, 0.0, gear, shifting)
+
+
+def test_limits_saturate_and_the_brake_wins():
+    t = limited(5, 9.0, 3.0, 0.1, Gear.HIGH, 0.5)
+    assert (t.steering_rad, t.throttle, t.brake) == (0.5, 0.0, 0.1)
+    t = limited(5, -9.0, 3.0, -1.0, Gear.HIGH, 0.5)
+    assert (t.steering_rad, t.throttle, t.brake) == (-0.5, 1.0, 0.0)
+
+
+def test_steering_follows_the_measured_circle_and_is_odd():
+    s = P.vehicle.steering
+    assert steering_angle(1 / 5.8, s) == pytest.approx(s.limit_rad, rel=0.01)
+    assert steering_angle(-0.1, s) == -steering_angle(0.1, s)
+    assert steering_angle(9.0, s) == steering_angle(1 / s.minimum_radius_m, s)
+
+
+def test_no_fresh_command_stops_the_vehicle():
+    control = LowLevelController(P.control, P.vehicle.steering)
+    assert control.step(0, ego(), vehicle()).brake > 0.0
+    points = np.column_stack([np.linspace(0, 9, 10), np.zeros(10)])
+    control.command_is(FollowPath(0, points, 3.0))
+    assert control.step(TICK_NS, ego(speed=0.0), vehicle()).brake == 0.0
+    late = int(0.6e9)
+    stop = control.step(late, ego(), vehicle())
+    assert (stop.throttle, stop.brake > 0.0) == (0.0, True)
+
+
+def test_no_throttle_while_the_gear_is_shifting():
+    control = LowLevelController(P.control, P.vehicle.steering)
+    points = np.column_stack([np.linspace(0, 9, 10), np.zeros(10)])
+    control.command_is(FollowPath(0, points, 3.0))
+    assert control.step(TICK_NS, ego(speed=0.0), vehicle(shifting=True)).throttle == 0.0
+    assert control.step(TICK_NS, ego(speed=0.0), vehicle(gear=Gear.NEUTRAL)).throttle == 0.0
+
+
+def test_speed_controller_brakes_above_and_drives_below():
+    speed = SpeedController(P.control.speed)
+    throttle, brake = speed.step(3.0, 6.0, 0.02)
+    assert throttle == 0.0
+    assert brake > 0.3
+    throttle, brake = speed.step(3.0, 1.0, 0.02)
+    assert throttle > 0.0
+    assert brake == 0.0
+
+
+@pytest.mark.parametrize("side", [1.0, -1.0])
+def test_offset_decays_on_a_straight_line(side):
+    control = LowLevelController(P.control, P.vehicle.steering)
+    x, y, heading, delta, speed = 0.0, side * 1.0, 0.0, 0.0, 3.0
+    offsets = []
+    for k in range(600):
+        x0 = x - 1.0
+        points = np.column_stack([np.linspace(x0, x0 + 12.0, 10), np.zeros(10)])
+        now = k * TICK_NS
+        yaw_rate = speed * tan(delta) / 1.7
+        control.command_is(FollowPath(now, points, speed))
+        target = control.step(now, ego(x, y, heading, speed, yaw_rate, now), vehicle(now))
+        rate = P.vehicle.steering.rate_radps * 0.02
+        delta += min(max(target.steering_rad - delta, -rate), rate)
+        heading += yaw_rate * 0.02
+        x, y = x + speed * 0.02 * cos(heading), y + speed * 0.02 * sin(heading)
+        offsets.append(y * side)
+    assert abs(offsets[-1]) < 0.05
+    assert min(offsets) > -0.25
+    assert abs(heading) < pi / 60

@@ -1,0 +1,80 @@
+"""Scanning distances over feasible curves, with the whole outline."""
+
+import numpy as np
+import pytest
+
+from nav.fusion.lattice import Lattice
+from nav.parameters.loader import from_toml
+from nav.parameters.planning import PlanningParameters
+from nav.planning.corridor_grid import corridor_distance
+from nav.planning.scanning import REAL, SAFE, Boundaries, fan, free_distance, scan
+from scenarios.episode import parameter_texts
+
+P = from_toml(PlanningParameters, parameter_texts()["planning.toml"], "planning.toml")
+LATTICE = Lattice(0.2, 320, -160, -160)
+
+
+def boundaries(*blocks: tuple[float, float, float, float, int]) -> Boundaries:
+    """A free map with blocks (x low, x high, y low, y high, level)."""
+    level = np.zeros((320, 320), np.uint8)
+    centre = LATTICE.origin_m[0] + (np.arange(320) + 0.5) * LATTICE.cell_m
+    for x0, x1, y0, y1, value in blocks:
+        rows, columns = (centre > y0) & (centre < y1), (centre > x0) & (centre < x1)
+        level[np.ix_(rows, columns)] = value
+    return Boundaries(level, LATTICE.origin_m, LATTICE.cell_m)
+
+
+def test_free_ground_is_free_in_all_directions():
+    curves = fan(P.scanning, P.footprint, 6.5)
+    real, safe = scan(curves, boundaries(), 0.0, 0.0, 0.3)
+    assert (real == P.scanning.max_distance_m).all()
+    assert (safe == P.scanning.max_distance_m).all()
+
+
+def test_wall_ahead_is_met_by_the_front_of_the_vehicle():
+    curves = fan(P.scanning, P.footprint, 6.5)
+    real, _ = scan(curves, boundaries((15.0, 16.0, -30.0, 30.0, REAL)), 0.0, 0.0, 0.0)
+    ahead = real[len(real) // 2]
+    assert ahead == pytest.approx(15.0 - max(P.footprint.disc_x_m), abs=P.scanning.step_m)
+
+
+def test_safe_boundary_does_not_block_the_real_distance():
+    curves = fan(P.scanning, P.footprint, 6.5)
+    real, safe = scan(curves, boundaries((10.0, 12.0, -30.0, 30.0, SAFE)), 0.0, 0.0, 0.0)
+    assert (real == P.scanning.max_distance_m).all()
+    assert safe[len(safe) // 2] < 10.0
+
+
+def test_mirrored_world_gives_mirrored_distances():
+    curves = fan(P.scanning, P.footprint, 6.5)
+    left, _ = scan(curves, boundaries((8.0, 12.0, 0.6, 4.0, REAL)), 0.0, 0.0, 0.0)
+    right, _ = scan(curves, boundaries((8.0, 12.0, -4.0, -0.6, REAL)), 0.0, 0.0, 0.0)
+    np.testing.assert_array_equal(left, right[::-1])
+    assert (left != right).any()
+
+
+def test_curves_turn_no_tighter_than_their_radius():
+    curves = fan(P.scanning, P.footprint, 9.0)
+    turned = np.abs(np.diff(curves.heading_rad, axis=1))
+    assert turned.max() <= P.scanning.step_m / 9.0 + 1e-12
+    np.testing.assert_allclose(curves.heading_rad[:, -1], curves.theta_rad, atol=1e-9)
+
+
+def test_vehicle_inside_a_boundary_may_leave_it_but_not_cross_a_wall():
+    arc = np.arange(0.0, 10.0, 0.5)
+    leaving = np.zeros((1, 20), np.uint8)
+    leaving[0, :2] = REAL
+    assert free_distance(leaving, arc, REAL)[0] == arc[-1]
+    wall = np.zeros((1, 20), np.uint8)
+    wall[0, :8] = REAL
+    assert free_distance(wall, arc, REAL)[0] < 1.5
+
+
+def test_corridor_depth_is_half_width_less_distance():
+    points = np.array([[-20.0, 0.0], [20.0, 0.0]])
+    depth = corridor_distance(LATTICE, points, np.array([4.0, 4.0]), 0, 1)
+    centre = LATTICE.origin_m[0] + (np.arange(320) + 0.5) * LATTICE.cell_m
+    column = depth[:, 160]
+    near = np.abs(centre) < 3.9
+    np.testing.assert_allclose(column[near], 4.0 - np.abs(centre[near]), atol=1e-5)
+    assert (column[np.abs(centre) > 4.2] < 0.0).all()

@@ -1,0 +1,118 @@
+"""The state machine of Fig. 6.3: every transition that exists, and those that must not."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from nav.messages import EgoEstimate
+from nav.parameters import parameters_from
+from nav.planning.curve import sampled
+from nav.planning.local_path import clear_distances
+from nav.planning.scanning import REAL, Boundaries
+from nav.states import machine
+from nav.states.machine import Machine
+from nav.states.situation import Situation
+from scenarios.episode import parameter_texts
+
+P = parameters_from(parameter_texts())
+WALLS = {"left_front": 0.9, "right_front": 0.9, "left_rear": 0.9, "right_rear": 0.9}
+OPEN = dict.fromkeys(WALLS, 4.0)
+
+
+def situation(
+    *blocks: tuple[float, float, float, float], t: float = 0.0, gps_lost_s: float = 0.0, sonar=OPEN
+) -> Situation:
+    """The vehicle at the origin of a straight route along x, with real boundaries as blocks."""
+    level = np.zeros((320, 320), np.uint8)
+    centre = -32.0 + (np.arange(320) + 0.5) * 0.2
+    for x0, x1, y0, y1 in blocks:
+        rows, columns = (centre > y0) & (centre < y1), (centre > x0) & (centre < x1)
+        level[np.ix_(rows, columns)] = REAL
+    boundaries = Boundaries(level, (-32.0, -32.0), 0.2)
+    route = sampled(np.column_stack([np.arange(0, 30.5, 0.5), np.zeros(61)]))
+    real, safe = clear_distances(route, boundaries, P.planning.footprint)
+    ego = EgoEstimate(int(t * 1e9), [0, 0], 0.0, 3.0, 0.0, 0.0, 0.0, 0.1, 0.01)
+    return Situation(
+        ego.time_ns, ego, boundaries, route, real, safe, 0.0, 5.0, 0.0, 1, gps_lost_s, sonar
+    )
+
+
+def test_starts_and_stays_on_the_smooth_path():
+    m = Machine(P)
+    plan = m.decide(situation())
+    assert m.state == "path_point_keeping"
+    assert plan.pathpoint_m.shape == (10, 2)
+    assert plan.speed_mps > 3.0
+    np.testing.assert_allclose(plan.pathpoint_m[:, 1], 0.0, atol=1e-9)
+
+
+def test_obstacle_on_the_smooth_path_and_back():
+    m = Machine(P)
+    plan = m.decide(situation((15.0, 20.0, -4.0, 1.5)))
+    assert m.state == "obstacle_avoidance"
+    assert "obstacle on the smooth path" in m.reason
+    assert plan.decision_rad > 0.0
+    assert plan.pathpoint_m[-1, 1] > 0.3
+    m.decide(situation(t=0.1))
+    assert m.state == "path_point_keeping"
+
+
+def test_mirrored_obstacle_gives_mirrored_path():
+    left = Machine(P).decide(situation((15.0, 20.0, -4.0, 1.5)))
+    right = Machine(P).decide(situation((15.0, 20.0, -1.5, 4.0)))
+    np.testing.assert_allclose(left.pathpoint_m * (1, -1), right.pathpoint_m, atol=1e-6)
+
+
+def test_wall_across_stops_the_vehicle():
+    m = Machine(P)
+    plan = m.decide(situation((2.6, 4.0, -30.0, 30.0)))
+    assert plan.speed_mps == 0.0
+
+
+@pytest.mark.parametrize(
+    ("gps_lost_s", "sonar", "state"),
+    [
+        (1.0, WALLS, "tunnel_mode"),
+        (60.0, OPEN, "path_point_keeping"),
+        (0.0, WALLS, "path_point_keeping"),
+        (60.0, {**OPEN, "left_front": 0.9}, "path_point_keeping"),
+        (60.0, {}, "path_point_keeping"),
+    ],
+)
+def test_tunnel_mode_needs_lost_gps_and_two_walls(gps_lost_s, sonar, state):
+    m = Machine(P)
+    m.decide(situation(gps_lost_s=gps_lost_s, sonar=sonar))
+    assert m.state == state
+
+
+def test_tunnel_mode_leads_to_the_centre_line():
+    m = Machine(P)
+    walls = {**WALLS, "left_front": 1.3, "left_rear": 1.3, "right_front": 0.5, "right_rear": 0.5}
+    plan = m.decide(situation(gps_lost_s=1.0, sonar=walls))
+    assert plan.pathpoint_m[-1, 1] == pytest.approx(0.4, abs=0.05)
+
+
+def test_tunnel_mode_leaves_only_to_path_point_keeping():
+    assert [target for target, _ in machine.TRANSITIONS["tunnel_mode"]] == ["path_point_keeping"]
+    m = Machine(P)
+    m.decide(situation(gps_lost_s=1.0, sonar=WALLS))
+    blocked = situation((15.0, 20.0, -4.0, 1.5), t=1.0, gps_lost_s=2.0, sonar=WALLS)
+    m.decide(blocked)
+    assert m.state == "tunnel_mode"
+    m.decide(situation(t=2.0, gps_lost_s=3.0, sonar=OPEN))
+    assert m.state == "tunnel_mode"
+    m.decide(situation(t=3.0, gps_lost_s=4.0, sonar=OPEN))
+    assert (m.state, m.reason) == ("path_point_keeping", "walls ended")
+
+
+def test_new_path_at_a_waypoint_at_the_fifth_point_and_when_blocked():
+    m = Machine(P)
+    first = m.decide(situation())
+    assert first.replanned == "new state"
+    assert m.decide(situation(t=0.1)).replanned == ""
+    assert m.decide(replace(situation(t=0.2), waypoint=2)).replanned == "waypoint passed"
+    far = situation(t=0.3)
+    moved = replace(far.ego, position_m=np.array([6.0, 0.0]))
+    at_fifth = replace(far, ego=moved, waypoint=2)
+    assert m.decide(at_fifth).replanned == "fifth pathpoint reached"
