@@ -98,6 +98,10 @@ class Judge:
         self._state_ticks[state] = self._state_ticks.get(state, 0) + 1
         self.outcome = self.outcome or self._verdict(truth.time_ns * 1e-9)
 
+    def stop(self, word: str) -> None:
+        """End the drive from outside, unless it is over."""
+        self.outcome = self.outcome or word
+
     def _observe_lines(
         self, truth: Truth, estimate: EgoEstimate | None, decision: Decision | None
     ) -> None:

@@ -1,0 +1,78 @@
+"""Many episodes, one process each; results come as they end, and none is lost."""
+
+import multiprocessing
+import signal
+from collections.abc import Callable, Iterator, Sequence
+from concurrent.futures import FIRST_COMPLETED, Future, ProcessPoolExecutor, wait
+from multiprocessing.synchronize import Event
+from typing import Any
+
+from scenarios.interrupts import interrupts
+from scenarios.processor import fix_processor
+
+Result = dict[str, Any]
+Work = Callable[[int], Result]
+"""Drives the episode of one seed; can be pickled."""
+POLL_S = 0.5
+
+_stop: Event | None = None
+
+
+def many(work: Work, seeds: Sequence[int], jobs: int) -> Iterator[Result]:
+    """Drive many seeds.
+
+    Args:
+        work: is called with a seed in another process; asks `stop_asked` now and then.
+        seeds: in the order of starting.
+        jobs: how many at a time.
+
+    Yields:
+        What `work` gives, in the order of ending; for one that raised or whose process died,
+        `seed`, `outcome: error` and `message`. After Ctrl-C, `outcome: interrupted` for those
+        never begun, and what the running ones give when they have stopped.
+    """
+    fix_processor()
+    context = multiprocessing.get_context("spawn")
+    stop = context.Event()
+    pool = ProcessPoolExecutor(min(jobs, len(seeds)), context, _begin, (stop,))
+    try:
+        with interrupts() as caught:
+            pending = {pool.submit(work, seed): seed for seed in seeds}
+            while pending:
+                if caught and not stop.is_set():
+                    stop.set()
+                    yield from _cancel(pending)
+                yield from _ended(pending)
+    finally:
+        stop.set()
+        pool.shutdown(cancel_futures=True)
+
+
+def stop_asked() -> bool:
+    """In a worker: whether the user wants no more."""
+    return _stop is not None and _stop.is_set()
+
+
+def _begin(stop: Event) -> None:
+    """In a worker: Ctrl-C reaches all processes of a terminal, but only the parent takes it."""
+    global _stop
+    _stop = stop
+    signal.signal(signal.SIGINT, signal.SIG_IGN)
+
+
+def _cancel(pending: "dict[Future[Result], int]") -> Iterator[Result]:
+    for future in [future for future in pending if future.cancel()]:
+        yield {"seed": pending.pop(future), "outcome": "interrupted"}
+
+
+def _ended(pending: "dict[Future[Result], int]") -> Iterator[Result]:
+    done, _ = wait(pending, timeout=POLL_S, return_when=FIRST_COMPLETED)
+    for future in [future for future in pending if future in done]:
+        yield _result(future, pending.pop(future))
+
+
+def _result(future: "Future[Result]", seed: int) -> Result:
+    if error := future.exception():
+        message = f"{type(error).__name__}: {error}"
+        return {"seed": seed, "outcome": "error", "message": message}
+    return future.result()
