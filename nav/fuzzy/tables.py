@@ -21,8 +21,8 @@ class Tables(NamedTuple):
     """Shape (t,), the input that a term looks at."""
     limits: Floats
     """Shape (2, inputs, 1), where inputs saturate."""
-    conditions: Indices
-    """Shape (w, a), rows of the memberships; row t is 1 everywhere, for "whatever it is"."""
+    conditions: tuple[Indices, ...]
+    """w of shape (a,), rows of the memberships; row t is 1 everywhere, for "whatever it is"."""
     rule_start: Indices
     """Shape (r,), each rule's first alternative."""
     by_output: Indices
@@ -48,7 +48,7 @@ def compile_tables(inputs: dict[str, Variable], output: Output, rules: tuple[Rul
         flanks=np.concatenate([v.flanks for v in inputs.values()], axis=1),
         term_input=np.repeat(np.arange(len(inputs)), [len(v.terms) for v in inputs.values()]),
         limits=np.array([v.range for v in inputs.values()]).T[:, :, None],
-        conditions=conditions,
+        conditions=tuple(conditions),
         rule_start=np.cumsum([0] + [len(rule.when) for rule in rules[:-1]]),
         by_output=by_output,
         output_start=np.searchsorted(concluded[by_output], np.arange(len(output.terms))),
@@ -72,7 +72,8 @@ def fire(tables: Tables, x: Floats) -> Floats:
     members: Floats = np.empty((count + 1, x.shape[1]))
     members[:count] = memberships(tables.flanks, x.take(tables.term_input, axis=0))
     members[count] = 1.0
-    strength = members.take(tables.conditions[0], axis=0)
-    for rows in tables.conditions[1:]:
+    first, *others = tables.conditions
+    strength = members.take(first, axis=0)
+    for rows in others:
         np.minimum(strength, members.take(rows, axis=0), out=strength)
     return np.maximum.reduceat(strength, tables.rule_start, axis=0)

@@ -7,7 +7,7 @@ import numpy as np
 
 from nav.fuzzy.inference import average, infer, strengths
 from nav.messages import Floats
-from nav.parameters.steering import SteeringParameters
+from nav.parameters.fuzzy import SteeringParameters
 
 
 @dataclass(frozen=True)

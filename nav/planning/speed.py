@@ -4,7 +4,7 @@ from dataclasses import dataclass
 
 from nav.fuzzy.inference import average, explain, strengths
 from nav.fuzzy.rule_base import RuleBase
-from nav.parameters.speed import SpeedParameters
+from nav.parameters.fuzzy import SpeedParameters
 
 
 @dataclass(frozen=True)

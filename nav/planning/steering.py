@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 
 from nav.fuzzy.inference import explain, pick, strengths
 from nav.messages import Floats
-from nav.parameters.steering import SteeringParameters
+from nav.parameters.fuzzy import SteeringParameters
 from nav.planning.focus import Situation, angle_between, breakpoints, deduction, situation
 
 TIE_RAD = 1e-9
