@@ -19,11 +19,12 @@ from twin.drivetrain import (
     wheel_torques,
 )
 from twin.truth import Applied, Truth
-from twin.vehicle import ackermann, indices, linkage
+from twin.vehicle import ackermann, indices, linkage, tire_contact
 
 Floats = NDArray[np.float64]
 
 GROUND = "ground"
+_SPEED_LEVEL_MPS = 0.05
 _CHASSIS, _OBSTACLE, _SOFT = 1, 2, 3
 
 
@@ -62,6 +63,7 @@ class Plant:
         self._kind, self._owner = _geoms(model, owners or {}, self._at.body)
         self._touched: dict[str, None] = {}
         self._brake = -1.0
+        self._level = -1
         self.data = mujoco.MjData(model)
         self._place(start)
 
@@ -90,6 +92,7 @@ class Plant:
         applied = self._shim.step(clock.time_ns(self.k), speed)
         self._actuate(applied, speed)
         mujoco.mj_step2(self.model, self.data)
+        self._soften(abs(speed))
         mujoco.mj_step1(self.model, self.data)
         self.k += 1
         self._touch()
@@ -104,6 +107,14 @@ class Plant:
             self._brake = applied.brake
             self.model.dof_frictionloss[at.spin_dof] = friction_torques(p, applied.brake)
         self._drag()
+
+    def _soften(self, speed: float) -> None:
+        level = int(speed / _SPEED_LEVEL_MPS)
+        if level != self._level:
+            self._level = level
+            solref, solimp = tire_contact(level * _SPEED_LEVEL_MPS)
+            self.model.geom_solref[self._at.tire_geom] = solref
+            self.model.geom_solimp[self._at.tire_geom, :2] = solimp
 
     def _drag(self) -> None:
         vx, vy, vz = self.data.qvel[self._at.free_dof : self._at.free_dof + 3].tolist()

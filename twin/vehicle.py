@@ -41,6 +41,27 @@ def ackermann(mean_rad: float) -> tuple[float, float]:
     return atan(slope / (1.0 - half)), atan(slope / (1.0 + half))
 
 
+TIRE_STIFFNESS_PER_S2 = 10_000.0
+TIRE_DAMPING_PER_S = 200.0
+"""Contact of the tire in MuJoCo's direct form: 100 rad/s, damping ratio 1."""
+STICKING_RATIO = 0.03
+"""MuJoCo's regularization R / A = (1 - d) / d of a tire that stands: d = 0.97 holds on a slope."""
+STICKING_MPS = 0.05
+"""Speed below which the tire sticks; above it R grows with speed, see `tire_contact`."""
+
+
+def tire_contact(speed_mps: float) -> tuple[tuple[float, float], tuple[float, float]]:
+    """`solref` and first two values of `solimp` of a tire that rolls at `speed_mps`.
+
+    MuJoCo's friction below its limit is viscous: force = b / R x slip speed. With R proportional to
+    the speed of travel that is a tire's law, force = stiffness x slip angle, and with three axles it
+    matters: rigid friction makes the tandem scrub at its limit in any turn.
+    """
+    d = 1.0 / (1.0 + STICKING_RATIO * max(1.0, speed_mps / STICKING_MPS))
+    # MuJoCo divides these by d squared and d, which would undo what R shall do.
+    return (-TIRE_STIFFNESS_PER_S2 * d * d, -TIRE_DAMPING_PER_S * d), (d, d)
+
+
 class Indices(NamedTuple):
     """Where the vehicle's parts are in the model's arrays; wheels in the order of WHEELS."""
 
