@@ -48,7 +48,7 @@ def wire_class(kind: type) -> Any:
 
 
 def is_counts(field: "Field[Any]") -> bool:
-    """Whether an array field travels as uint16 counts instead of doubles."""
+    """Whether an array field travels as uint16 counts, each less the one before, not as doubles."""
     return "count" in field.metadata
 
 

@@ -92,7 +92,7 @@ class View:
         return drawn
 
     def _path(self, path: FollowPath) -> Drawn:
-        if not self._due("/view/path", path.time_ns, HZ_10):
+        if not self._due("/view/path", path.time_ns, HZ_5):
             return []
         return [("/view/path", drawings.path(_stamp(path), path))]
 
@@ -108,7 +108,7 @@ class View:
 
     def _decision(self, decision: Decision) -> Drawn:
         drawn: Drawn = []
-        if self._ego and self._due("/view/decision", decision.time_ns, HZ_10):
+        if self._ego and self._due("/view/decision", decision.time_ns, HZ_5):
             drawn += [("/view/decision", drawings.decision(_stamp(decision), decision, self._ego))]
         said = (decision.state, decision.reason)
         if said != self._said:

@@ -1,7 +1,7 @@
 """Writes a tape: an MCAP file that stays readable when its writer is killed."""
 
 import os
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from types import TracebackType
 from typing import Any, NamedTuple, Self
 
@@ -69,9 +69,10 @@ class TapeWriter:
         self._context = Context()
         self._channels: dict[str, Any] = {}
         self._second = 0
-        self._file = None if self._mode is None else _open(os.fspath(path), self._context)
+        self._path = os.fspath(path)
+        self._file = None if self._mode is None else _open(self._path, self._context)
         if self._file and metadata:
-            self._file.write_metadata("tape", dict(metadata))
+            self._call(self._file.write_metadata, "tape", dict(metadata))
         for name, data in (attachments or {}).items():
             self.attach(name, data)
         self._flush()
@@ -96,14 +97,14 @@ class TapeWriter:
         if self._file:
             raw = data.encode() if isinstance(data, str) else data
             kind = "text/plain" if isinstance(data, str) else "application/octet-stream"
-            self._file.attach(log_time=0, create_time=0, name=name, media_type=kind, data=raw)
+            options = {"log_time": 0, "create_time": 0, "media_type": kind}
+            self._call(self._file.attach, name=name, data=raw, **options)
 
     def close(self) -> None:
         """Write what is left, and the index that makes the file quick to open."""
-        if self._file:
-            self._file.close()
-            self._file = None
-            self._mode = None
+        file, self._file, self._mode = self._file, None, None
+        if file:
+            self._call(file.close)
 
     def __enter__(self) -> Self:
         return self
@@ -118,7 +119,13 @@ class TapeWriter:
 
     def _flush(self) -> None:
         if self._file:
-            self._file.flush()
+            self._call(self._file.flush)
+
+    def _call(self, write: Callable[..., None], *arguments: Any, **options: Any) -> None:
+        try:
+            write(*arguments, **options)
+        except RuntimeError as error:  # the SDK's own, a full disk among them
+            raise TapeError(f"{self._path}: cannot be written: {error}") from error
 
     def _tape_channel(self, record: Record) -> Channel:
         kind = type(record.message)

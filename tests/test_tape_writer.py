@@ -141,6 +141,12 @@ def test_a_file_that_cannot_be_written_is_said_at_once(tmp_path):
         TapeWriter(tmp_path / "nowhere" / "run.mcap")
 
 
+@pytest.mark.skipif(not Path("/dev/full").exists(), reason="needs /dev/full, as Linux has")
+def test_a_full_disk_is_said():
+    with pytest.raises(TapeError, match="/dev/full: cannot be written"):
+        TapeWriter("/dev/full", {"a.toml": "x = 1"})
+
+
 def test_an_exception_inside_leaves_a_whole_file(tmp_path):
     path, records = tmp_path / "run.mcap", list(drive(1))
 
@@ -192,7 +198,7 @@ def test_a_killed_writer_loses_at_most_the_last_second(mode, tmp_path):
     assert attachments(path) == {"seed": b"0"}
 
 
-@pytest.mark.parametrize(("mode", "limit_MB"), [("inputs", 70), ("full", 100)])
+@pytest.mark.parametrize(("mode", "limit_MB"), [("inputs", 80), ("full", 100)])
 def test_an_nqe_of_17_minutes_fits(mode, limit_MB, tmp_path):
     path = tmp_path / "run.mcap"
     write(path, drive(10), mode=mode, view=VIEW)
