@@ -5,12 +5,11 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from nav.route.rddf import Route
+from twin.earth import to_world
 from twin.world import World
 
 Floats = NDArray[np.float64]
-
-FOOT_M = 0.3048
-MPH_MPS = 0.44704
 
 
 @dataclass(frozen=True, eq=False)
@@ -47,3 +46,8 @@ class Course:
     """In driving order."""
     tunnel_center_line_m: Floats | None = None
     """Shape (k, 2), in driving order, or None where there is no tunnel."""
+
+
+def route_points_m(route: Route, anchor: tuple[float, float]) -> Floats:
+    """The route's waypoints in the world frame that is anchored at `anchor` [deg], shape (n, 2)."""
+    return np.stack(to_world(anchor, route.latitude_deg, route.longitude_deg), axis=1)

@@ -1,0 +1,69 @@
+"""`layout.toml` as data: the legs of the course, their limits, and what stands on them."""
+
+from importlib import resources
+
+import msgspec
+
+
+class Thing(msgspec.Struct, forbid_unknown_fields=True, frozen=True):
+    """Something on a leg. Its place is nominal: the seed moves it."""
+
+    kind: str
+    at_m: float
+    """From the beginning of the leg's straight."""
+    offset: bool = False
+    """Of a gate: the opening lies well off the route line."""
+    layers: int = 2
+    """Of hay bales."""
+    length_m: float = 0.0
+    """Of a pass: along the track."""
+
+
+class Limit(msgspec.Struct, forbid_unknown_fields=True, frozen=True, array_like=True):
+    """Speed limit and corridor from a place on the leg onwards."""
+
+    from_m: float
+    speed_mph: float
+    half_width_ft: float
+
+
+class Leg(msgspec.Struct, forbid_unknown_fields=True, frozen=True):
+    """A straight to a corner, and the turn there."""
+
+    to_m: tuple[float, float]
+    limits: list[Limit]
+    things: list[Thing] = []
+    turn_radius_m: float = 0.0
+    turn_mph: float = 10.0
+
+
+class Layout(msgspec.Struct, forbid_unknown_fields=True, frozen=True):
+    """The whole file."""
+
+    anchor_deg: tuple[float, float]
+    start_m: tuple[float, float]
+    satellites: list[tuple[float, float]]
+    """Azimuth, counter-clockwise from east, and elevation."""
+    legs: list[Leg]
+
+
+class Scenario(msgspec.Struct, forbid_unknown_fields=True, frozen=True):
+    """`scenario.toml`."""
+
+    title: str
+    course: str
+    time_limit_s: float
+
+
+def load_layout() -> Layout:
+    """The layout that belongs to this package."""
+    return msgspec.toml.decode(_read("layout.toml"), type=Layout)
+
+
+def load_scenario() -> Scenario:
+    """The scenario that belongs to this package."""
+    return msgspec.toml.decode(_read("scenario.toml"), type=Scenario)
+
+
+def _read(name: str) -> str:
+    return (resources.files("scenarios.nqe") / name).read_text(encoding="utf-8")
