@@ -9,6 +9,8 @@ from twin.world import SOFT, Obstacle, World
 HFIELD_BOTTOM_M = 2.0
 """Thickness of the ground below its lowest point."""
 OBSTACLE_GROUP = 1
+YIELDING = frozenset({"brush"})
+"""Kinds that sensors see and that do not hold a vehicle back."""
 SHAPES = {"box": mujoco.mjtGeom.mjGEOM_BOX, "cylinder": mujoco.mjtGeom.mjGEOM_CYLINDER}
 
 
@@ -56,6 +58,7 @@ def _add_obstacle(spec: mujoco.MjSpec, obstacle: Obstacle, friction: float) -> N
         raise ValueError(f"{obstacle.name}: shape {obstacle.shape!r}, expected one of {known}")
     radius, _, half_height = obstacle.half_size_m
     upright = obstacle.shape == "cylinder"
+    touches = int(obstacle.kind not in YIELDING)
     spec.worldbody.add_geom(
         name=obstacle.name,
         type=SHAPES[obstacle.shape],
@@ -64,6 +67,8 @@ def _add_obstacle(spec: mujoco.MjSpec, obstacle: Obstacle, friction: float) -> N
         size=[radius, half_height, 0.0] if upright else obstacle.half_size_m,
         friction=_sliding(friction),
         group=OBSTACLE_GROUP,
+        contype=touches,
+        conaffinity=touches,
         rgba=COLORS.get(obstacle.kind, COLORS[""]),
     )
 

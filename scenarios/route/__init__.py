@@ -1,0 +1,5 @@
+"""Any route definition file as a course."""
+
+from scenarios.route.course import build
+
+__all__ = ["build"]

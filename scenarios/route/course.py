@@ -1,0 +1,79 @@
+"""A stretch of any route definition file, with ground and obstacles that the seed draws."""
+
+from math import atan2
+
+import numpy as np
+
+from nav.route import rddf
+from scenarios.course import Course, Floats, route_points_m
+from scenarios.geometry import Pose
+from scenarios.route.roadside import obstacles
+from scenarios.things import generator
+from twin.terrain import Octave, RollingGround
+from twin.world import World
+
+DESERT = (Octave(160.0, 2.0), Octave(32.0, 0.16), Octave(6.0, 0.02))
+"""Estimated: rougher than the NQE's ground."""
+FRICTION = (0.5, 0.9)
+TIME_FACTOR, TIME_EXTRA_S = 3.0, 120.0
+"""The time limit: so many times the time at the speed limits, and something for the start."""
+WALKING_MPS = 1.0
+"""Taken for a limit that is lower."""
+SKY = np.radians(
+    [(20, 62), (75, 35), (110, 18), (150, 48), (200, 25), (235, 70), (280, 16), (300, 41)]
+)
+"""Azimuth counter-clockwise from east and elevation: a GPS sky."""
+
+
+def build(text: str, name: str, first: int, last: int, seed: int) -> Course:
+    """The waypoints numbered `first` to `last` of a route file, as `seed` draws the world there.
+
+    Args:
+        text: the route file's text.
+        name: the route file's name, for messages.
+
+    Raises:
+        RouteError: not a route file, or a stretch that it does not have.
+    """
+    route = rddf.parse(text, name).stretch(first, last)
+    anchor = float(route.latitude_deg[0]), float(route.longitude_deg[0])
+    waypoint_m = route_points_m(route, anchor)
+    ground = RollingGround(seed, DESERT)
+    world = World(
+        terrain=ground,
+        obstacles=obstacles(seed, ground, waypoint_m, route.half_width_m),
+        friction=float(generator(seed, "friction").uniform(*FRICTION)),
+        anchor=anchor,
+        start=tuple(_first_pose(waypoint_m)),
+        satellites=SKY,
+    )
+    return Course(
+        name="route",
+        title=f"{name}, waypoints {first} to {last}.",
+        seed=seed,
+        world=world,
+        route_text=_lines(text, first, last),
+        route_name=name,
+        waypoint_m=waypoint_m,
+        half_width_m=route.half_width_m,
+        speed_mps=route.speed_mps,
+        time_limit_s=_time_limit_s(waypoint_m, route.speed_mps),
+    )
+
+
+def _first_pose(waypoint_m: Floats) -> Pose:
+    x, y = (float(v) for v in waypoint_m[0])
+    east, north = waypoint_m[1] - waypoint_m[0]
+    return Pose(x, y, atan2(north, east))
+
+
+def _lines(text: str, first: int, last: int) -> str:
+    """The lines of the stretch, as they are in the file."""
+    lines = [line for line in text.splitlines() if line.strip()]
+    return "".join(f"{line}\n" for line in lines if first <= int(line.split(",")[0]) <= last)
+
+
+def _time_limit_s(waypoint_m: Floats, speed_mps: Floats) -> float:
+    length = np.hypot(*np.diff(waypoint_m, axis=0).T)
+    least = length / np.maximum(speed_mps[:-1], WALKING_MPS)
+    return float(TIME_FACTOR * least.sum() + TIME_EXTRA_S)

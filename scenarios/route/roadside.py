@@ -1,0 +1,104 @@
+"""What stands beside a desert track: rocks, brush, posts and bales, a few of them within reach.
+
+Every thing either stays outside the corridor or leaves `FREE_M` of it on the other side.
+"""
+
+from math import cos, pi, sin
+from typing import NamedTuple
+
+import numpy as np
+
+from scenarios.course import Floats
+from scenarios.geometry import Pose
+from scenarios.things import Site, generator
+from twin.world import Obstacle, Terrain
+
+SPACING_M = 14.0
+"""Mean distance from one thing to the next, both sides together."""
+REACHING_SHARE = 0.15
+"""Of all things that may: these stand in the corridor."""
+FREE_M = 2.9
+"""Of the corridor, beside a thing that stands in it: nearly twice the vehicle's width."""
+CLEAR_START_M = 25.0
+CALM_M = 12.0
+"""Nothing reaches in so near to a waypoint, where the track turns."""
+REST_M = 30.0
+"""From one thing that reaches in to the next."""
+SHARES = {"rock": 0.4, "brush": 0.35, "post": 0.15, "hay_bale": 0.1}
+RADIUS_M = {"rock": 0.75, "brush": 0.6, "post": 0.08, "hay_bale": 1.05}
+"""Of the circle that holds it."""
+
+
+class Corridor(NamedTuple):
+    """Segments of the route, arrays of shape (n, 2) and (n,)."""
+
+    start_m: Floats
+    direction: Floats
+    length_m: Floats
+    half_width_m: Floats
+
+
+def obstacles(
+    seed: int, terrain: Terrain, waypoint_m: Floats, half_width_m: Floats
+) -> tuple[Obstacle, ...]:
+    """All things beside the route, shape (n, 2) and (n,), world frame [m], in driving order."""
+    rng = generator(seed, "roadside")
+    corridor = _corridor(waypoint_m, half_width_m)
+    parts: list[Obstacle] = []
+    rest_until = CLEAR_START_M
+    stations = CLEAR_START_M + np.cumsum(
+        rng.uniform(0.2 * SPACING_M, 1.8 * SPACING_M, int(corridor.length_m.sum() / SPACING_M))
+    )
+    for k, station in enumerate(stations[stations < corridor.length_m.sum()]):
+        kind = str(rng.choice(list(SHARES), p=list(SHARES.values())))
+        wants_in = station >= rest_until and rng.uniform() < REACHING_SHARE
+        pose, inside = _place(rng, corridor, float(station), RADIUS_M[kind], wants_in)
+        if inside:
+            rest_until = station + REST_M
+        if inside or _outside(corridor, pose, RADIUS_M[kind]):
+            parts += _thing(rng, Site(f"{kind}_{k:04d}", kind, terrain, pose))
+    return tuple(parts)
+
+
+def _corridor(waypoint_m: Floats, half_width_m: Floats) -> Corridor:
+    span = np.diff(waypoint_m, axis=0)
+    length = np.hypot(*span.T)
+    return Corridor(waypoint_m[:-1], span / length[:, None], length, half_width_m[:-1])
+
+
+def _place(
+    rng: np.random.Generator, corridor: Corridor, station: float, radius: float, wants_in: bool
+) -> tuple[Pose, bool]:
+    """A place for a thing, and whether it reaches into the corridor."""
+    ends = np.cumsum(corridor.length_m)
+    k = int(np.searchsorted(ends, station))
+    along = station - float(ends[k] - corridor.length_m[k])
+    width, (cx, cy) = float(corridor.half_width_m[k]), corridor.direction[k]
+    side, depth = float(rng.choice((1.0, -1.0))), float(rng.uniform())
+    reach = max(FREE_M - width, -0.5)  # from this far on its own side; negative: across the line
+    calm = min(along, float(corridor.length_m[k]) - along) > CALM_M
+    inside = wants_in and calm and reach < width - 0.2
+    near = reach + depth * (width - reach) if inside else width + 0.3 + 3.0 * depth
+    base = Pose(*(float(v) for v in corridor.start_m[k]), float(np.arctan2(cy, cx)))
+    turn = float(rng.uniform(-pi, pi))
+    pose = base.moved(along, side * (near + radius), turn)
+    return pose, inside and _outside(corridor, pose, radius, but=k)
+
+
+def _outside(corridor: Corridor, pose: Pose, radius: float, but: int = -1) -> bool:
+    """Whether a circle touches no segment's corridor (except that of segment `but`)."""
+    away = np.array((pose.x, pose.y)) - corridor.start_m
+    along = np.clip((away * corridor.direction).sum(axis=1), 0.0, corridor.length_m)
+    gap = np.hypot(*(away - along[:, None] * corridor.direction).T) - corridor.half_width_m - radius
+    gap[but if but >= 0 else slice(0, 0)] = np.inf
+    return bool((gap > 0.1).all())
+
+
+def _thing(rng: np.random.Generator, site: Site) -> list[Obstacle]:
+    size, shape = float(rng.uniform(0.6, 1.0)), float(rng.uniform(0.6, 0.95))
+    radius = RADIUS_M[site.kind] * size
+    if site.kind == "rock":
+        return [site.box("", site.pose, (radius * cos(shape), radius * sin(shape)), 0.8 * size)]
+    if site.kind == "hay_bale":
+        return site.bales(2)
+    return [site.cylinder("", site.pose, radius, 1.2 * size)]
