@@ -104,4 +104,6 @@ def _clip(value: float, low: float, high: float) -> float:
 
 
 def _towards(value: float, target: float, step: float) -> float:
+    if value == target:
+        return value
     return value + _clip(target - value, -step, step)

@@ -31,8 +31,12 @@ _CHASSIS, _OBSTACLE, _SOFT = 1, 2, 3
 class Plant:
     """The Ranger in a compiled world. Picklable in the middle; goes on with the same bits.
 
+    Positions, velocities and contacts in `data` are those of step `k`: each step ends with
+    `mj_step1`, whose counterpart begins the next.
+
     Args:
-        model: holds the vehicle (models/polaris_ranger_6x6.xml); the plant keeps it as its own.
+        model: holds the vehicle (models/polaris_ranger_6x6.xml) and, already in place, the ground
+            with its friction; the plant keeps and edits the model as its own.
         start: x, y and ground height [m] of the reference point, heading [rad].
         seed: draws how long each shift takes.
         owners: geom name to the thing it is a part of; `""` for what may be touched.
@@ -74,6 +78,13 @@ class Plant:
         self.data.qpos[at : at + 3] += (x, y, z)
         self.data.qpos[at + 3 : at + 7] = (cos(0.5 * heading), 0.0, 0.0, sin(0.5 * heading))
         mujoco.mj_forward(self.model, self.data)
+        self._lift()
+
+    def _lift(self) -> None:
+        """Let the vehicle drop onto uneven ground; a tire that starts in it would be thrown."""
+        dist = self.data.contact.dist
+        self.data.qpos[self._at.free_qpos + 2] += max(0.0, -dist.min()) if len(dist) else 0.0
+        mujoco.mj_forward(self.model, self.data)
 
     # ------------------------------------------------------------ driving
 
@@ -101,8 +112,10 @@ class Plant:
         data, at, p = self.data, self._at, self._drivetrain
         gear = Gear.NEUTRAL if applied.shifting else applied.gear
         force = self._engine.force(applied.throttle, gear, speed)
-        data.ctrl[at.steer_actuator] = ackermann(linkage(applied.steering_rad))
-        data.ctrl[at.drive_actuator] = wheel_torques(p, force, data.qvel[at.spin_dof].tolist())
+        spin = data.qvel[at.spin_dof].tolist()
+        data.ctrl[at.actuators] = (
+            *ackermann(linkage(applied.steering_rad)), *wheel_torques(p, force, spin),
+        )  # fmt: skip
         if applied.brake != self._brake:
             self._brake = applied.brake
             self.model.dof_frictionloss[at.spin_dof] = friction_torques(p, applied.brake)
@@ -123,7 +136,7 @@ class Plant:
 
     def _touch(self) -> None:
         geom = self.data.contact.geom
-        if self._kind[geom].any():
+        if np.count_nonzero(self._kind[geom]):
             for a, b in geom.tolist():
                 self._note(a, b)
 

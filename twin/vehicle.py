@@ -20,8 +20,8 @@ PIVOT_M = 2.29
 """Front axle to the line about which the vehicle turns (published: the manual's wheelbase)."""
 
 STEERING_LIMIT_RAD = 0.576
-LINKAGE_RATIO = 0.50
-LINKAGE_PROGRESSION_PER_RAD = 0.25
+LINKAGE_RATIO = 0.49
+LINKAGE_PROGRESSION_PER_RAD = 0.31
 """Estimated: chosen so that the twin turns as the measured vehicle did, see `linkage`."""
 
 
@@ -44,20 +44,23 @@ def ackermann(mean_rad: float) -> tuple[float, float]:
 TIRE_STIFFNESS_PER_S2 = 10_000.0
 TIRE_DAMPING_PER_S = 200.0
 """Contact of the tire in MuJoCo's direct form: 100 rad/s, damping ratio 1."""
-STICKING_RATIO = 0.03
-"""MuJoCo's regularization R / A = (1 - d) / d of a tire that stands: d = 0.97 holds on a slope."""
-STICKING_MPS = 0.05
+STICKING_RATIO = 0.01
+"""MuJoCo's regularization R / A = (1 - d) / d of a tire that stands: d = 0.99 holds on a slope."""
+STICKING_MPS = 0.0167
 """Speed below which the tire sticks; above it R grows with speed, see `tire_contact`."""
+SOFTEST = 450.0
+"""R grows no further than this many times, at 7.5 m/s: softer tires are unstable at speed."""
 
 
 def tire_contact(speed_mps: float) -> tuple[tuple[float, float], tuple[float, float]]:
     """`solref` and first two values of `solimp` of a tire that rolls at `speed_mps`.
 
-    MuJoCo's friction below its limit is viscous: force = b / R x slip speed. With R proportional to
-    the speed of travel that is a tire's law, force = stiffness x slip angle, and with three axles it
+    MuJoCo's friction below its limit is viscous: force = b / R x slip speed. With R in proportion
+    to the speed of travel that is a tire's law, force = stiffness x slip angle. With three axles it
     matters: rigid friction makes the tandem scrub at its limit in any turn.
     """
-    d = 1.0 / (1.0 + STICKING_RATIO * max(1.0, speed_mps / STICKING_MPS))
+    softness = min(max(1.0, speed_mps / STICKING_MPS), SOFTEST)
+    d = 1.0 / (1.0 + STICKING_RATIO * softness)
     # MuJoCo divides these by d squared and d, which would undo what R shall do.
     return (-TIRE_STIFFNESS_PER_S2 * d * d, -TIRE_DAMPING_PER_S * d), (d, d)
 
@@ -69,8 +72,8 @@ class Indices(NamedTuple):
     free_qpos: int
     free_dof: int
     spin_dof: np.ndarray
-    steer_actuator: np.ndarray
-    drive_actuator: np.ndarray
+    actuators: slice
+    """Angles of the front wheels, left and right [rad], then drive torques of WHEELS [N m]."""
     wheel_body: np.ndarray
     tire_geom: np.ndarray
     gyro: int
@@ -89,10 +92,17 @@ def indices(model: mujoco.MjModel) -> Indices:
         free_qpos=int(free.qposadr[0]),
         free_dof=int(free.dofadr[0]),
         spin_dof=np.array([model.joint(f"{w}_spin").dofadr[0] for w in WHEELS]),
-        steer_actuator=np.array([model.actuator(f"front_{s}_steer").id for s in SIDES]),
-        drive_actuator=np.array([model.actuator(f"{w}_drive").id for w in WHEELS]),
+        actuators=_actuators(model),
         wheel_body=np.array([model.body(f"{w}_wheel").id for w in WHEELS]),
         tire_geom=np.array([model.geom(f"{w}_tire").id for w in WHEELS]),
         gyro=int(model.sensor("imu_gyro").adr[0]),
         accelerometer=int(model.sensor("imu_accelerometer").adr[0]),
     )
+
+
+def _actuators(model: mujoco.MjModel) -> slice:
+    names = [f"front_{s}_steer" for s in SIDES] + [f"{w}_drive" for w in WHEELS]
+    first = model.actuator(names[0]).id
+    if [model.actuator(name).id for name in names] != list(range(first, first + len(names))):
+        raise ValueError(f"actuators out of order: expected {', '.join(names)} in a row")
+    return slice(first, first + len(names))
