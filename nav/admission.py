@@ -5,24 +5,26 @@ All code behind it assumes good data, so nothing behind it checks again.
 
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, field, fields
+from functools import cache
 from math import isfinite
 from typing import Any
 
-import numpy as np
-
-from nav.messages import LidarScan, SensorMessage
+from nav.messages import Floats, LidarScan, SensorMessage
 
 FUTURE_NS = 50_000_000
 """A message may be this much ahead of the call's time (clocks of the truck's devices)."""
 
 
+@cache
+def _float_fields(kind: type[Any]) -> tuple[str, ...]:
+    return tuple(f.name for f in fields(kind) if f.type in (float, Floats))
+
+
 def _finite(message: SensorMessage) -> bool:
-    for f in fields(message):
-        value: Any = getattr(message, f.name)
-        if isinstance(value, np.ndarray):
-            if not np.isfinite(value).all():
-                return False
-        elif isinstance(value, float) and not isfinite(value):
+    for name in _float_fields(type(message)):
+        value = getattr(message, name)
+        # a sum is finite only where all its terms are
+        if not isfinite(value if isinstance(value, float) else value.sum()):
             return False
     return True
 

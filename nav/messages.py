@@ -44,7 +44,7 @@ class GpsQuality(IntEnum):
 
 def lidar_range_m(counts: NDArray[np.uint16]) -> Floats:
     """The one decoder of LIDAR counts. `c * 0.01`, never `c / 100`: the bits differ."""
-    return counts * LIDAR_COUNT_M
+    return counts.astype(np.float64) * LIDAR_COUNT_M
 
 
 def _frozen(value: Any) -> Floats:

@@ -1,26 +1,19 @@
 """One episode is one object: world, twin, navigator, judge and digest. Picklable in the middle."""
 
-from importlib.resources import files
 from typing import Any
 
-from nav import parameters
 from nav.messages import ActuatorTargets, Decision, EgoEstimate, Gear, Message
 from nav.navigator import IonNavigator
 from nav.parameters import Parameters, parameters_from
 from nav.route import rddf
 from scenarios.ablation import disabled_sensors
 from scenarios.course import Course
+from scenarios.parameter_files import parameter_texts
 from scenarios.verdicts import Judge
 from tape.digest import Digest
 from tape.record import Record, record
 from twin.simulator import Simulator
 from twin.truth import Truth
-
-
-def parameter_texts() -> dict[str, str]:
-    """The parameter files that come with the navigator, by name."""
-    folder = files(parameters)
-    return {name: (folder / name).read_text(encoding="utf-8") for name in parameters.FILES}
 
 
 class Episode:

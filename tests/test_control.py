@@ -11,7 +11,7 @@ from nav.control.path_following import steering_angle
 from nav.control.speed import SpeedController
 from nav.messages import EgoEstimate, FollowPath, Gear, VehicleState
 from nav.parameters import parameters_from
-from scenarios.episode import parameter_texts
+from scenarios.parameter_files import parameter_texts
 
 P = parameters_from(parameter_texts())
 TICK_NS = 20_000_000

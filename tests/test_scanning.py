@@ -8,7 +8,7 @@ from nav.parameters.loader import from_toml
 from nav.parameters.planning import PlanningParameters
 from nav.planning.corridor_grid import corridor_distance
 from nav.planning.scanning import REAL, SAFE, Boundaries, fan, free_distance, scan
-from scenarios.episode import parameter_texts
+from scenarios.parameter_files import parameter_texts
 
 P = from_toml(PlanningParameters, parameter_texts()["planning.toml"], "planning.toml")
 LATTICE = Lattice(0.2, 320, -160, -160)

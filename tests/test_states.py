@@ -13,7 +13,7 @@ from nav.planning.scanning import REAL, Boundaries
 from nav.states import machine
 from nav.states.machine import Machine
 from nav.states.situation import Situation
-from scenarios.episode import parameter_texts
+from scenarios.parameter_files import parameter_texts
 
 P = parameters_from(parameter_texts())
 WALLS = {"left_front": 0.9, "right_front": 0.9, "left_rear": 0.9, "right_rear": 0.9}

@@ -45,4 +45,5 @@ def _span(lattice: Lattice, axis: int, low_m: float, high_m: float) -> tuple[sli
     origin, count = lattice.origin_m[axis], lattice.count
     low = max(0, int(np.floor((low_m - origin) / lattice.cell_m)))
     high = min(count, int(np.ceil((high_m - origin) / lattice.cell_m)))
-    return slice(low, max(low, high)), origin + (np.arange(low, high) + 0.5) * lattice.cell_m
+    cell = np.arange(low, high, dtype=np.float64)
+    return slice(low, max(low, high)), origin + (cell + 0.5) * lattice.cell_m

@@ -25,7 +25,7 @@ def path_length(speed_mps: float, p: LocalPathParameters) -> float:
 
 def pathpoints(curve: Curve, length_m: float) -> Floats:
     """Ten points, shape (10, 2), evenly along the first `length_m` of a curve."""
-    return resampled(curve, np.linspace(0.0, min(length_m, curve.arc_m[-1]), PATHPOINTS))
+    return resampled(curve, np.linspace(0.0, min(length_m, float(curve.arc_m[-1])), PATHPOINTS))
 
 
 def route_ahead(
@@ -35,13 +35,15 @@ def route_ahead(
 
     The offset is taken back on a cubic whose length keeps it no tighter than `join_radius_m`.
     """
-    end = int(np.searchsorted(route.arc_m, route.arc_m[index] + AHEAD_M)) + 1
-    part = slice(min(index, len(route.arc_m) - 2), max(end, index + 2))
+    first = min(index, len(route.arc_m) - 2)
+    end = int(np.searchsorted(route.arc_m, route.arc_m[first] + AHEAD_M)) + 1
+    part = slice(first, max(end, first + 2))
     position, heading = route.position_m[part], route.heading_rad[part]
     if abs(offset_m) > p.join_offset_m:
         turned = wrapped(heading_rad - float(heading[0]))
-        e = _join(route.arc_m[part] - route.arc_m[part.start], offset_m, turned, p)
-        position = position + e[:, None] * np.stack([-np.sin(heading), np.cos(heading)], axis=1)
+        e = _join(route.arc_m[part] - route.arc_m[first], offset_m, turned, p)
+        left: Floats = np.stack([-np.sin(heading), np.cos(heading)], axis=1)
+        position = position + e[:, None] * left
     return sampled(position)
 
 

@@ -2,13 +2,15 @@
 
 from functools import lru_cache
 
+import numpy as np
+
 from nav.parameters import Parameters
 from nav.parameters.planning import PlanningParameters
 from nav.planning.angles import wrapped
 from nav.planning.local_path import path_length, pathpoints, towards
 from nav.planning.scanning import Fan, fan, scan
 from nav.planning.speed import set_point
-from nav.planning.steering import Scan, decide
+from nav.planning.steering import decide
 from nav.states.memory import Memory
 from nav.states.replanning import due
 from nav.states.situation import Plan, Situation
@@ -23,8 +25,11 @@ def plan(s: Situation, memory: Memory, p: Parameters) -> Plan:
     curves = _fan(p.planning, ego.speed_mps)
     real, safe = scan(curves, s.boundaries, x, y, ego.heading_rad)
     reason = due(s, memory, p)
+    theta = curves.theta_rad + ego.heading_rad
     decision = decide(
-        Scan(curves.theta_rad + ego.heading_rad, real, safe),
+        theta,
+        real,
+        safe,
         ego.heading_rad,
         s.goal_rad,
         memory.decision_rad,
@@ -32,17 +37,17 @@ def plan(s: Situation, memory: Memory, p: Parameters) -> Plan:
         s.V0_mps,
         p.steering,
     )
-    row = (decision.safe if decision.selected == "safe" else decision.real).index
-    memory.decision_rad = decision.decision_rad
+    row = int(np.argmin(np.abs(theta - decision.theta_D)))
+    memory.decision_rad = decision.theta_D
     if reason or memory.pathpoint_m is None:
         length = min(path_length(ego.speed_mps, p.planning.local_path), float(real[row]))
         path = towards(curves, row, x, y, ego.heading_rad)
         memory.follow(pathpoints(path, max(length, 1.0)), s.waypoint)
     assert memory.pathpoint_m is not None
     D1, D = float(real[len(real) // 2]), float(real[row])
-    turn = abs(wrapped(decision.decision_rad - ego.heading_rad))
+    turn = abs(wrapped(decision.theta_D - ego.heading_rad))
     speed = set_point(D1, D, turn, s.V0_mps, decision.selected, p.speed).speed_mps
-    return Plan(memory.pathpoint_m, speed, D1, D, decision.decision_rad, decision.selected, reason)
+    return Plan(memory.pathpoint_m, speed, D1, D, decision.theta_D, decision.selected, reason)
 
 
 def _fan(p: PlanningParameters, speed_mps: float) -> Fan:
