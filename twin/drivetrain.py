@@ -52,8 +52,9 @@ class DrivetrainParameters:
     drag_n_s2_m2: float = 1.2
     """Aerodynamic drag: half density x 2.0 m^2 of drag area."""
 
-    def __post_init__(self) -> None:
-        object.__setattr__(self, "ranges", (self.reverse, self.neutral, self.low, self.high))
+    def engaged(self, gear: int) -> Range:
+        """What the CVT gives in a position of the linkage."""
+        return (self.reverse, self.neutral, self.low, self.high)[gear]
 
 
 class Engine:
@@ -64,17 +65,17 @@ class Engine:
         self.output = 0.0
         self._gain = 1.0 - exp(-dt_s / parameters.engine_lag_s)
 
-    def force(self, throttle: float, gear: Gear, speed_mps: float) -> float:
+    def force(self, throttle: float, gear: int, speed_mps: float) -> float:
         """Advance by one step; tractive force along the vehicle's x axis, [N]."""
         self.output += self._gain * (throttle - self.output)
         return tractive_force(self.parameters, self.output, gear, speed_mps)
 
 
 def tractive_force(
-    parameters: DrivetrainParameters, output: float, gear: Gear, speed_mps: float
+    parameters: DrivetrainParameters, output: float, gear: int, speed_mps: float
 ) -> float:
     """Force of all wheels together [N] for an engine output 0 to 1 at a signed speed."""
-    engaged: Range = parameters.ranges[gear]
+    engaged = parameters.engaged(gear)
     if engaged.direction == 0.0:
         return 0.0
     speed = engaged.direction * speed_mps
