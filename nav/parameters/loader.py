@@ -53,8 +53,9 @@ def _dataclass(cls: Any, value: Any, path: str) -> Any:
         raise ParameterError(f"{path}.{unknown[0]}: unknown key; known are {', '.join(known)}")
     if missing := [n for n, f in known.items() if n not in table and _required(f)]:
         raise ParameterError(f"{path}.{missing[0]}: missing")
+    values = {k: _value(hints[k], v, f"{path}.{k}") for k, v in table.items()}
     try:
-        return cls(**{k: _value(hints[k], v, f"{path}.{k}") for k, v in table.items()})
+        return cls(**values)
     except ValueError as error:
         raise ParameterError(f"{path}: {error}") from error
 

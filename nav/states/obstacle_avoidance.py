@@ -1,4 +1,8 @@
-"""Obstacle Avoidance: the fuzzy steering controller picks a direction (section 6.4.2)."""
+"""Obstacle Avoidance: the fuzzy steering controller picks a direction (section 6.4.2).
+
+D1, the distance in front of the vehicle, is measured along the local path in force: corridor
+edges are boundaries, so straight ahead would mean a stop before every sharp turn.
+"""
 
 from functools import lru_cache
 
@@ -12,7 +16,7 @@ from nav.planning.scanning import Fan, fan, scan
 from nav.planning.speed import set_point
 from nav.planning.steering import decide
 from nav.states.memory import Memory
-from nav.states.replanning import due
+from nav.states.replanning import blocked_in, due
 from nav.states.situation import Plan, Situation
 
 NAME = "obstacle_avoidance"
@@ -44,7 +48,9 @@ def plan(s: Situation, memory: Memory, p: Parameters) -> Plan:
         path = towards(curves, row, x, y, ego.heading_rad)
         memory.follow(pathpoints(path, max(length, 1.0)), s.waypoint)
     assert memory.pathpoint_m is not None
-    D1, D = float(real[len(real) // 2]), float(real[row])
+    D = float(real[row])
+    blocked = blocked_in(s, memory, p)
+    D1 = D if blocked is None else blocked
     turn = abs(wrapped(decision.theta_D - ego.heading_rad))
     speed = set_point(D1, D, turn, s.V0_mps, decision.selected, p.speed).speed_mps
     return Plan(memory.pathpoint_m, speed, D1, D, decision.theta_D, decision.selected, reason)

@@ -19,9 +19,16 @@ def due(s: Situation, memory: Memory, p: Parameters) -> str:
     here = _index(memory.curve, s.ego.position_m)
     if here >= _index(memory.curve, memory.pathpoint_m[FIFTH]):
         return "fifth pathpoint reached"
-    ahead = _rest(memory.curve, here)
+    return "path crosses an obstacle" if blocked_in(s, memory, p) is not None else ""
+
+
+def blocked_in(s: Situation, memory: Memory, p: Parameters) -> float | None:
+    """Distance along the local path in force to a real boundary, or None where it is free."""
+    if memory.curve is None:
+        return None
+    ahead = _rest(memory.curve, _index(memory.curve, s.ego.position_m))
     clear, _ = clear_distances(ahead, s.boundaries, p.planning.footprint)
-    return "path crosses an obstacle" if clear < ahead.arc_m[-1] else ""
+    return clear if clear < ahead.arc_m[-1] else None
 
 
 def _index(curve: Curve, point_m: Floats) -> int:
