@@ -35,6 +35,8 @@ class Clearance:
     outline: Outline
     least_m: dict[str, float] = field(default_factory=dict)
     """By family: `gate`, `tunnel`, `other`."""
+    least_at: dict[str, Pose] = field(default_factory=dict)
+    """Where that was."""
     now_m: float = math.inf
     """To the nearest obstacle of any family; right up to 15 m, beyond only a lower bound."""
     _refreshed_ns: int = -REFRESH_NS
@@ -55,7 +57,8 @@ class Clearance:
         distances = distances_m(self.outline, pose, self._near).tolist()
         self.now_m = min(distances, default=math.inf)
         for family, distance in zip(self._names, distances, strict=True):
-            self.least_m[family] = min(self.least_m.get(family, math.inf), distance)
+            if distance < self.least_m.get(family, math.inf):
+                self.least_m[family], self.least_at[family] = distance, pose
 
     def _select(self, mask: NDArray[np.bool_]) -> tuple[Footprints, list[str]]:
         names = [self._family[k] for k in np.flatnonzero(mask)]

@@ -14,7 +14,7 @@ from scenarios.verdicts.clearance import Clearance, in_the_way
 from scenarios.verdicts.contacts import Contacts
 from scenarios.verdicts.corridor import Departures, Progress
 from scenarios.verdicts.gates import GateKeeper
-from scenarios.verdicts.shapes import Outline
+from scenarios.verdicts.shapes import Outline, Pose
 from scenarios.verdicts.tracking import CrossTrack, Deviation, frames, line_offset_m, route_path
 from twin.truth import Truth
 from twin.world import SOFT
@@ -64,6 +64,8 @@ class Judge:
     """Whether leaving the corridor ends the drive."""
     outcome: str | None = None
     outline: Outline = field(default_factory=Outline)
+    pose: Pose | None = None
+    """The last that was seen."""
 
     def __post_init__(self) -> None:
         course = self.course
@@ -86,7 +88,7 @@ class Judge:
     ) -> None:
         """Take the true state, and the navigator's latest reports."""
         x, y = truth.position_m[:2].tolist()
-        pose = (x, y, truth.heading_rad)
+        self.pose = pose = (x, y, truth.heading_rad)
         self.movement.observe(truth)
         self.progress.observe(x, y)
         self.departures.observe(truth.time_ns, self.progress.segment, truth.tire_center_m[:, :2])

@@ -1,0 +1,83 @@
+"""From a scenario's name, or a route file, to what a seed draws of it."""
+
+from dataclasses import dataclass
+from importlib import import_module
+from importlib.resources import files
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from ion.errors import UsageError
+
+if TYPE_CHECKING:
+    from scenarios.course import Course
+
+
+@dataclass(frozen=True)
+class Source:
+    """Where a course comes from. Small, so that it travels to other processes."""
+
+    scenario: str
+    """Name of a scenario, empty for a route file."""
+    route_text: str = ""
+    route_name: str = ""
+    first: int = 0
+    """Waypoint number where the stretch of the route begins."""
+    last: int = 0
+
+    @property
+    def name(self) -> str:
+        """For files and tables."""
+        if self.scenario:
+            return self.scenario
+        return f"{Path(self.route_name).stem}_{self.first}-{self.last}"
+
+    def course(self, seed: int) -> "Course":
+        """The course as `seed` draws it.
+
+        Raises:
+            NavError: the route cannot be driven.
+        """
+        if self.scenario:
+            return import_module(f"scenarios.{self.scenario}.course").build(seed)
+        from scenarios.route import build
+
+        return build(self.route_text, self.route_name, self.first, self.last, seed)
+
+
+def scenario_names() -> list[str]:
+    """All scenarios that can be driven by name: the folders that hold a `scenario.toml`."""
+    folders = files("scenarios").iterdir()
+    return sorted(f.name for f in folders if f.is_dir() and (f / "scenario.toml").is_file())
+
+
+def scenario_source(name: str) -> Source:
+    """A scenario by its name.
+
+    Raises:
+        UsageError: there is none of this name; lists those that exist.
+    """
+    if name not in scenario_names():
+        raise UsageError(f"scenario {name!r} is unknown; there are: {', '.join(scenario_names())}")
+    return Source(name)
+
+
+def route_source(path: Path, first: int | None, last: int | None) -> Source:
+    """A stretch of a route file, read and checked.
+
+    Raises:
+        UsageError: the file cannot be read or is no text.
+        NavError: the file is no route, or has no such stretch.
+    """
+    from nav.route.rddf import parse
+
+    try:
+        text = path.read_text(encoding="utf-8")
+    except OSError as error:
+        raise UsageError(f"{path}: cannot be read: {error.strerror}") from error
+    except UnicodeDecodeError as error:
+        raise UsageError(f"{path}: no route file: expected lines of text") from error
+    route = parse(text, str(path))
+    first = int(route.number[0]) if first is None else first
+    last = int(route.number[-1]) if last is None else last
+    route.stretch(first, last)
+    return Source("", text, str(path), first, last)

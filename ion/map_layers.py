@@ -1,0 +1,94 @@
+"""The layers of a map, from the ground up."""
+
+from collections.abc import Sequence
+from typing import NamedTuple
+
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.collections import LineCollection, PolyCollection
+from numpy.typing import NDArray
+
+from nav.route.rddf import MPH_MPS
+from scenarios.course import Course
+from scenarios.verdicts.shapes import footprints
+from twin.world import SOFT, Obstacle
+
+Floats = NDArray[np.float64]
+
+PAPER, SAND, EDGE, INK = "#fbfaf7", "#f0e8d6", "#d8c9a6", "#33322e"
+GATE, MISSED, SEEN, HARD, TUNNEL = "#2f7d4f", "#c0392b", "#e0701f", "#77736b", "#8fa3b8"
+SPEED_MAP, TRACK, TOP_MPH = "viridis", "#21918c", 25.0
+
+
+class Scene(NamedTuple):
+    """All that a map shows, world frame."""
+
+    course: Course
+    track: Floats
+    """Shape (n, 3): x, y [m] and speed [m/s]."""
+    cells_m: Floats
+    """Shape (m, 2): obstacle cells that the navigator saw."""
+    missed: frozenset[int]
+    """Gates."""
+
+
+def draw_scene(axes: Axes, scene: Scene, detail: bool) -> LineCollection:
+    """Draw all layers; a detail with stronger lines. Returns the trajectory, for a colour bar."""
+    _draw_corridor(axes, scene.course)
+    _draw_obstacles(axes, scene.course.world.obstacles)
+    size = 1.6 if detail else 0.7
+    axes.plot(*scene.cells_m.T, "s", color=SEEN, markersize=size, markeredgewidth=0, zorder=4)
+    for k, gate in enumerate(scene.course.gates):
+        color = MISSED if k in scene.missed else GATE
+        ends = np.stack([gate.left_m, gate.right_m])
+        axes.plot(*ends.T, "-", color=color, linewidth=2.2, solid_capstyle="round", zorder=5)
+    return _draw_track(axes, scene.track, 3.0 if detail else 1.7)
+
+
+def _draw_corridor(axes: Axes, course: Course) -> None:
+    """Rectangles and discs in one colour, over the same a little larger for the edge."""
+    P, width = course.waypoint_m, course.half_width_m
+    for color, extra, z in ((EDGE, 0.3, 0.0), (SAND, 0.0, 1.0)):
+        shapes = [_capsule(P[k], P[k + 1], width[k] + extra) for k in range(len(P) - 1)]
+        axes.add_collection(_polygons(shapes, color, z))
+
+
+def _capsule(start: Floats, end: Floats, radius_m: float) -> Floats:
+    """Outline of all points within a distance of a segment, shape (k, 2)."""
+    along = end - start
+    front = np.arctan2(along[1], along[0]) + np.linspace(-0.5 * np.pi, 0.5 * np.pi, 13)
+    arc = radius_m * np.stack([np.cos(front), np.sin(front)], axis=1)
+    return np.vstack([end + arc, start - arc])
+
+
+def _draw_obstacles(axes: Axes, obstacles: Sequence[Obstacle]) -> None:
+    """What may be touched or passed under is lighter."""
+    colors = {"tunnel": (TUNNEL, 2.0), **dict.fromkeys(sorted(SOFT), (EDGE, 2.0))}
+    groups: dict[tuple[str, float], list[Floats]] = {}
+    for obstacle in obstacles:
+        groups.setdefault(colors.get(obstacle.kind, (HARD, 3.0)), []).append(_shadow(obstacle))
+    for (color, z), shapes in groups.items():
+        axes.add_collection(_polygons(shapes, color, z))
+
+
+def _shadow(obstacle: Obstacle) -> Floats:
+    if obstacle.shape == "cylinder":
+        turn = np.linspace(0.0, 2.0 * np.pi, 17)
+        circle = np.stack([np.cos(turn), np.sin(turn)], axis=1)
+        return np.array(obstacle.center_m[:2]) + obstacle.half_size_m[0] * circle
+    return footprints([obstacle]).corner_m[0]
+
+
+def _polygons(shapes: list[Floats], color: str, z: float) -> PolyCollection:
+    return PolyCollection(shapes, facecolors=color, linewidths=0.0, zorder=z)
+
+
+def _draw_track(axes: Axes, track: Floats, width: float) -> LineCollection:
+    pieces = np.stack([track[:-1, :2], track[1:, :2]], axis=1)
+    lines = LineCollection(list(pieces), cmap=SPEED_MAP, linewidths=width, zorder=6)
+    speed_mph = np.abs(track[1:, 2]) / MPH_MPS
+    lines.set_array(speed_mph)
+    lines.set_clim(0.0, max(TOP_MPH, float(speed_mph.max(initial=0.0))))
+    lines.set_capstyle("round")
+    axes.add_collection(lines)
+    return lines

@@ -1,0 +1,156 @@
+"""The map of a run: course, gates, corridor, what was seen, the trajectory by speed; and below it
+the places where it was tight."""
+
+from pathlib import Path
+
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.backends.backend_agg import FigureCanvasAgg
+from matplotlib.figure import Figure
+from numpy.typing import NDArray
+
+from ion.map_layers import GATE, INK, MISSED, PAPER, SEEN, TRACK, Scene, draw_scene
+from ion.trace import Trace
+from nav.route.rddf import FOOT_M
+from scenarios.course import Course
+from scenarios.verdicts import Judge
+from scenarios.verdicts.shapes import Outline, Pose
+from scenarios.verdicts.tracking import frames
+
+Floats = NDArray[np.float64]
+Box = tuple[float, float, float, float]
+"""Left, right, bottom, top, [m]."""
+
+WIDTH_IN, DETAIL_IN, DPI = 12.0, 2.9, 150
+MARGIN_M = 14.0
+DETAIL_M = (21.0, 11.0)
+"""Half width and half height of a detail."""
+FAMILIES = {"other": "nearest obstacle", "gate": "tightest gate", "tunnel": "tunnel wall"}
+
+
+def draw_map(course: Course, trace: Trace, judge: Judge, title: str, path: Path) -> None:
+    """Write the map of a run as PNG.
+
+    Args:
+        course: what was driven.
+        trace: of the run.
+        judge: of the run.
+        title: one line, above the map.
+        path: of the picture.
+
+    Raises:
+        OSError: the file cannot be written.
+    """
+    missed = frozenset(judge.gates.missed(all_behind=judge.progress.finished))
+    scene = Scene(course, trace.track(), frames(course).to_world(trace.cells_m()), missed)
+    whole, details = _whole(scene), _details(judge)
+    map_in = _height_in(whole)
+    figure = Figure((WIDTH_IN, map_in + DETAIL_IN), layout="constrained", facecolor=PAPER)
+    FigureCanvasAgg(figure)
+    grid = figure.add_gridspec(2, len(details), height_ratios=[map_in, DETAIL_IN])
+    _draw_whole(figure.add_subplot(grid[0, :]), scene, whole, title)
+    for k, (name, pose) in enumerate(details):
+        _draw_detail(figure.add_subplot(grid[1, k]), scene, name, pose)
+    figure.savefig(path, dpi=DPI)
+
+
+def _whole(scene: Scene) -> Box:
+    points = np.vstack([scene.course.waypoint_m, scene.track[:, :2]])
+    margin = min(float(scene.course.half_width_m.max()), 30.0) + MARGIN_M
+    low, high = points.min(axis=0) - margin, points.max(axis=0) + margin
+    return float(low[0]), float(high[0]), float(low[1]), float(high[1])
+
+
+def _height_in(box: Box) -> float:
+    left, right, bottom, top = box
+    return float(np.clip(0.93 * WIDTH_IN * (top - bottom) / (right - left) + 0.8, 3.5, 14.0))
+
+
+def _details(judge: Judge) -> list[tuple[str, Pose | None]]:
+    """Three places: where the drive ended too early, and where each kind of thing was nearest."""
+    least = judge.clearance
+    tight: list[tuple[str, Pose | None]] = [
+        (f"{text}: {least.least_m[family]:.2f} m", least.least_at[family])
+        for family, text in FAMILIES.items()
+        if family in least.least_at
+    ]
+    if judge.outcome != "finished" and judge.pose:
+        tight.insert(0, (f"the end: {judge.outcome}", judge.pose))
+    return (tight + [("", None)] * 3)[:3]
+
+
+def _draw_whole(axes: Axes, scene: Scene, box: Box, title: str) -> None:
+    speed = draw_scene(axes, scene, detail=False)
+    _number_gates(axes, scene)
+    _mark_ends(axes, scene)
+    _frame(axes, box)
+    axes.set_title(title, loc="left", color=INK, fontsize=13, fontweight="bold")
+    place = axes.inset_axes((1.01, 0.2, 0.012, 0.6))
+    bar = axes.figure.colorbar(speed, cax=place)
+    bar.set_label("speed, mph", color=INK)
+    place.spines[:].set_visible(False)
+    _scale_bar(axes, box)
+
+
+def _draw_detail(axes: Axes, scene: Scene, name: str, pose: Pose | None) -> None:
+    axes.axis("off")
+    if pose is None:
+        return
+    axes.axis("on")
+    draw_scene(axes, scene, detail=True)
+    corners = np.array(Outline().corners_m(pose))
+    axes.fill(*corners.T, facecolor="none", edgecolor=INK, linewidth=1.4, zorder=9)
+    (x, y, _), (across, up) = pose, DETAIL_M
+    box = (x - across, x + across, y - up, y + up)
+    _frame(axes, box)
+    axes.spines[:].set(visible=True, color="#d9d6cf")
+    axes.set_title(name, loc="left", color=INK, fontsize=10)
+    _scale_bar(axes, box)
+
+
+def _number_gates(axes: Axes, scene: Scene) -> None:
+    for k, gate in enumerate(scene.course.gates):
+        color = MISSED if k in scene.missed else GATE
+        across = gate.left_m - gate.right_m
+        x, y = (gate.left_m + 7.0 * across / np.hypot(*across)).tolist()
+        axes.text(x, y, str(k + 1), color=color, fontsize=6.5, ha="center", va="center", zorder=8)
+
+
+def _mark_ends(axes: Axes, scene: Scene) -> None:
+    marks = [(scene.course.world.start[:2], "o", "start")]
+    marks += [(tuple(scene.course.waypoint_m[-1].tolist()), "s", "finish")]
+    marks += [(tuple(track[:2].tolist()), "X", "end of the run") for track in scene.track[-1:]]
+    for (x, y), marker, label in marks:
+        axes.plot(
+            x, y, marker, markersize=8, markerfacecolor="white", markeredgecolor=INK,
+            markeredgewidth=1.3, zorder=9, label=label, linestyle="none",
+        )  # fmt: skip
+    axes.plot([], [], "s", color=SEEN, markersize=4, label="obstacle seen", linestyle="none")
+    axes.plot([], [], "-", color=GATE, linewidth=2.2, label="gate passed")
+    if scene.missed:
+        axes.plot([], [], "-", color=MISSED, linewidth=2.2, label="gate missed")
+    axes.plot([], [], "-", color=TRACK, linewidth=2.2, label="trajectory")
+    axes.legend(
+        loc="upper center", bbox_to_anchor=(0.5, 0.0), ncols=7, frameon=False, fontsize=8.5,
+        labelcolor=INK,
+    )  # fmt: skip
+
+
+def _frame(axes: Axes, box: Box) -> None:
+    left, right, bottom, top = box
+    axes.set(xlim=(left, right), ylim=(bottom, top), aspect="equal", xticks=[], yticks=[])
+    axes.set_facecolor(PAPER)
+    axes.spines[:].set_visible(False)
+
+
+def _scale_bar(axes: Axes, box: Box) -> None:
+    """A bar of a round length, about an eighth of the width, in the lower left; north is up."""
+    left, right, bottom, _ = box
+    width = right - left
+    power = 10.0 ** np.floor(np.log10(width / 8.0))
+    length = float(power * max(f for f in (1.0, 2.0, 5.0) if f * power <= width / 8.0))
+    x, y, tick = left + 0.015 * width, bottom + 0.012 * width, 0.004 * width
+    bar = np.array([[x, y + tick], [x, y], [x + length, y], [x + length, y + tick]])
+    axes.plot(*bar.T, "-", color=INK, linewidth=1.4, zorder=10)
+    text = f"{length:g} m = {length / FOOT_M:.0f} ft, north is up"
+    axes.text(x + length + 2 * tick, y, text, color=INK, fontsize=8, va="bottom", zorder=10)

@@ -1,0 +1,51 @@
+"""What a run leaves for its map: where the vehicle was, and which obstacles it saw."""
+
+from collections.abc import Sequence
+from typing import TYPE_CHECKING
+
+import numpy as np
+from numpy.typing import NDArray
+
+from nav.messages import ObstacleCells
+from tape.record import Record
+
+if TYPE_CHECKING:
+    from scenarios.episode import Episode
+
+Floats = NDArray[np.float64]
+
+EVERY = 10
+"""Ticks between two places: 0.2 s."""
+CELL_M = 0.25
+"""Cells that were seen are drawn on a lattice of this spacing."""
+
+
+class Trace:
+    """Watches a run."""
+
+    def __init__(self) -> None:
+        self._tick = 0
+        self._places: list[tuple[float, float, float]] = []
+        self._cells: list[NDArray[np.int64]] = []
+
+    def __call__(self, episode: "Episode", records: Sequence[Record]) -> None:
+        """Take the truth every 0.2 s, and all cells that were reported."""
+        if self._tick % EVERY == 0 or episode.outcome:
+            x, y = episode.truth.position_m[:2].tolist()
+            self._places.append((x, y, episode.truth.speed_mps))
+        self._tick += 1
+        for record in records:
+            if isinstance(record.message, ObstacleCells):
+                cells = np.round(record.message.position_m / CELL_M).astype(np.int64)
+                self._cells.append(cells.reshape(-1, 2))
+
+    def track(self) -> Floats:
+        """Shape (n, 3): x, y [m] in the world frame and speed [m/s]."""
+        return np.array(self._places).reshape(-1, 3)
+
+    def cells_m(self) -> Floats:
+        """Shape (m, 2): all cells that were ever occupied, route frame N, [m]."""
+        if not self._cells:
+            return np.zeros((0, 2))
+        cells = np.unique(np.concatenate(self._cells), axis=0)
+        return cells.astype(np.float64) * CELL_M
