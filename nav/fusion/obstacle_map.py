@@ -1,0 +1,300 @@
+"""The local grid map that moves with the vehicle: where obstacles stand, and how sure that is.
+
+A cell gains confidence from returns above the ground profile. It loses confidence only in view:
+quickly where a beam passes through it no higher than its known top, slowly where a beam ends at
+its distance but not in it (a wall seen from a pose that has drifted since). What no beam reaches
+keeps its confidence, so blind corners persist, and so does what is lower than the level beams.
+"""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from math import cos, sin
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from nav.errors import NavError
+from nav.fusion.ground_profile import GroundProfile
+from nav.fusion.lattice import Ints, Lattice
+from nav.fusion.scan_geometry import Beams, Pose, ScanGeometry, beams, returns, scan_geometry
+from nav.messages import Floats, LidarScan
+from nav.parameters.obstacle_map import ObstacleMapParameters
+from nav.parameters.vehicle import Outline, VehicleParameters
+
+Bools = NDArray[np.bool_]
+_NO_TOP_M = -1e6
+_NOTHING_S, _LONG_S = 0.0, 0.3
+"""Decay of one tick covers at least and at most this time."""
+
+
+@dataclass(frozen=True, eq=False)
+class Occupied:
+    """The cells that are obstacles."""
+
+    index: Ints
+    """Shape (n,), flat: row (north) * count + column (east)."""
+    position_m: Floats
+    """Shape (n, 2), cell centres, route frame N."""
+    confidence: Floats
+    """Shape (n,), 0 to 1."""
+
+
+class _View(NamedTuple):
+    """The newest scan of one scanner."""
+
+    geometry: ScanGeometry
+    beams: Beams
+    range_m: Floats
+
+
+class ObstacleMap:
+    """Confidence and top height of the cells around the vehicle.
+
+    Args:
+        parameters: `obstacle_map.toml`.
+        vehicle: mounts of the scanners and sonars, and the outline, which is never occupied.
+    """
+
+    def __init__(self, parameters: ObstacleMapParameters, vehicle: VehicleParameters) -> None:
+        self.parameters = parameters
+        self.lattice = Lattice(parameters.cell_m, round(parameters.size_m / parameters.cell_m))
+        self.ground = GroundProfile(parameters.ground, parameters.size_m, _wheels(vehicle))
+        shape = (self.lattice.count, self.lattice.count)
+        self._confidence = np.zeros(shape)
+        self._top = np.full(shape, _NO_TOP_M)  # above the ground profile's datum
+        self._gain = np.zeros(shape)  # of this tick; zero between ticks
+        self._geometry = {
+            name: scan_geometry(mount, vehicle.lidar, vehicle.outline)
+            for name, mount in vehicle.lidar_mounts.items()
+        }
+        self._sonar_arcs = _sonar_arcs(vehicle)
+        self._sonar_min_m = vehicle.sonar.min_range_m
+        self._footprint = _footprint(vehicle.outline, parameters.cell_m)
+        self._time_ns: int | None = None
+        self._placed = False
+
+    # ------------------------------------------------------------------ what it holds
+
+    @property
+    def grid(self) -> Floats:
+        """Confidence, shape (count, count), row north, column east. Not a copy."""
+        return self._confidence
+
+    @property
+    def cell_m(self) -> float:
+        """Edge of a cell, [m]."""
+        return self.lattice.cell_m
+
+    @property
+    def origin_m(self) -> tuple[float, float]:
+        """South-west corner of cell (0, 0), route frame N, [m]."""
+        return self.lattice.origin_m
+
+    def occupied(self) -> Occupied:
+        """All cells whose confidence makes them obstacles."""
+        cells = self._confidence.ravel()
+        index = np.flatnonzero(cells >= self.parameters.confidence.occupied)
+        return Occupied(index, np.stack(self.lattice.centre_m(index), axis=1), cells[index])
+
+    # ------------------------------------------------------------------ what comes in
+
+    def recenter(self, x_m: float, y_m: float) -> None:
+        """Move the map by whole cells, once (x_m, y_m) is farther than `scroll_m` from its middle."""
+        if self._placed and self.lattice.offset_m(x_m, y_m) <= self.parameters.scroll_m:
+            return
+        self._placed = True
+        to = self.lattice.centred(x_m, y_m)
+        self._confidence = self.lattice.moved(self._confidence, to, 0.0)
+        self._top = self.lattice.moved(self._top, to, _NO_TOP_M)
+        self.lattice = to
+        self.ground.recentre(x_m, y_m)
+
+    def integrate(self, scans: Sequence[tuple[LidarScan, Pose]]) -> None:
+        """Take in the scans of one tick, oldest first, each with the estimate at its time.
+
+        Raises:
+            NavError: a scan of a scanner that the vehicle does not have.
+        """
+        views = [(self._view(scan, pose), pose) for scan, pose in self._newest(scans)]
+        if not views:
+            return
+        pose = views[-1][1]
+        self._follow(pose)
+        hits = self._mark([view for view, _ in views], pose)
+        self._decay({id(v.geometry): v for v, _ in views}, self._elapsed_s(scans[-1][0].time_ns))
+        self._add(hits)
+        self._clear_footprint(pose)
+
+    def integrate_sonar(self, range_m: Floats, pose: Pose) -> None:
+        """Mark the arcs of one round of sonars, shape (n,), [m], at modest confidence."""
+        p = self.parameters
+        heard = (range_m >= self._sonar_min_m) & (range_m <= p.sonar_range_m)
+        if not heard.any():
+            return
+        self._follow(pose, new_bound=False)
+        origin, arc = (a[heard] for a in self._sonar_arcs)
+        place = (origin + arc * range_m[heard, None, None]).reshape(-1, 3)
+        x, y = _turned(place, pose)
+        index, inside = self.lattice.index(x, y)
+        index, first = np.unique(index[inside], return_index=True)
+        cells = self._confidence.ravel()
+        lifted = np.minimum(cells[index] + p.confidence.sonar, p.confidence.sonar_limit)
+        cells[index] = np.maximum(cells[index], lifted)
+        top = self.ground.vehicle_m + place[inside, 2][first]
+        self._top.ravel()[index] = np.maximum(self._top.ravel()[index], top)
+        self._clear_footprint(pose)
+
+    def _newest(self, scans: Sequence[tuple[LidarScan, Pose]]) -> list[tuple[LidarScan, Pose]]:
+        left = dict.fromkeys(self._geometry, self.parameters.scans_per_sensor)
+        chosen: list[tuple[LidarScan, Pose]] = []
+        for scan, pose in reversed(scans):
+            if scan.sensor not in left:
+                raise NavError(f"no LIDAR is named {scan.sensor!r}; known are {', '.join(left)}")
+            if left[scan.sensor] > 0:
+                chosen.append((scan, pose))
+            left[scan.sensor] -= 1
+        return chosen[::-1]
+
+    def _view(self, scan: LidarScan, pose: Pose) -> _View:
+        geometry = self._geometry[scan.sensor]
+        return _View(geometry, beams(geometry, pose), scan.range_m)
+
+    def _follow(self, pose: Pose, new_bound: bool = True) -> None:
+        self.recenter(pose.x_m, pose.y_m)
+        if new_bound:
+            self.ground.drive(pose)
+
+    def _elapsed_s(self, time_ns: int) -> float:
+        last = time_ns if self._time_ns is None else self._time_ns
+        self._time_ns = time_ns
+        return min(max((time_ns - last) * 1e-9, _NOTHING_S), _LONG_S)
+
+    # ------------------------------------------------------------------ returns
+
+    def _mark(self, views: Sequence[_View], pose: Pose) -> Ints:
+        """Sort the returns; obstacles gain in `_gain` and `_top`. Returns their cells."""
+        p = self.parameters
+        points, fall = _points(views, p.max_range_m)
+        distance = np.hypot(points[0] - pose.x_m, points[1] - pose.y_m)
+        obstacle, ground, coarse = self.ground.classify(points, distance)
+        steep = fall > p.ground.teaching_slope
+        near = distance < p.ground.teaching_range_m
+        self.ground.learn(coarse, points[2], ground & steep & near, obstacle)
+        x, y, z = points[:, obstacle]
+        index, inside = self.lattice.index(x, y)
+        index = index[inside]
+        np.add.at(self._gain.ravel(), index, p.confidence.hit)
+        np.maximum.at(self._top.ravel(), index, z[inside] + self.ground.vehicle_m)
+        return index
+
+    def _add(self, index: Ints) -> None:
+        cells, gain = self._confidence.ravel(), self._gain.ravel()
+        most = 2 * self.parameters.confidence.hit
+        cells[index] = np.minimum(cells[index] + np.minimum(gain[index], most), 1.0)
+        gain[index] = 0.0
+
+    def _clear_footprint(self, pose: Pose) -> None:
+        index, inside = self.lattice.index(*_turned(self._footprint, pose))
+        self._confidence.ravel()[index[inside]] = 0.0
+        self._top.ravel()[index[inside]] = _NO_TOP_M
+
+    # ------------------------------------------------------------------ see-through
+
+    def _decay(self, views: dict[int, _View], elapsed_s: float) -> None:
+        """Take confidence from cells in view that were not hit in this tick."""
+        cells = self._confidence.ravel()
+        index = np.flatnonzero(cells)
+        index = index[self._gain.ravel()[index] == 0.0]
+        x, y = self.lattice.centre_m(index)
+        top = self._top.ravel()[index] - self.ground.vehicle_m
+        through, beside = np.zeros(len(index), bool), np.zeros(len(index), bool)
+        for view in views.values():
+            _look(view, (x, y, top), self.parameters.confidence.margin_m, through, beside)
+        p = self.parameters.confidence
+        rate = np.where(through, p.clear_ps, np.where(beside, p.fade_ps, 0.0))
+        left = np.maximum(cells[index] - rate * elapsed_s, 0.0)
+        cells[index] = left
+        self._top.ravel()[index[left == 0.0]] = _NO_TOP_M
+
+
+def _points(views: Sequence[_View], max_range_m: float) -> tuple[Floats, Floats]:
+    """Returns of all scans, shape (3, m), and how far their beams fall per metre, shape (m,)."""
+    points: list[Floats] = []
+    fall: list[Floats] = []
+    for geometry, fan, range_m in views:
+        hit = np.flatnonzero(returns(geometry, range_m, max_range_m))
+        direction = fan.direction[hit]
+        points.append(fan.origin_m + direction * range_m[hit, None])
+        fall.append(-direction[:, 2])
+    return np.ascontiguousarray(np.concatenate(points).T), np.concatenate(fall)
+
+
+def _look(
+    view: _View,
+    cells: tuple[Floats, Floats, Floats],
+    margin_m: float,
+    through: Bools,
+    beside: Bools,
+) -> None:
+    """Set `through` where the beam at a cell's bearing passes the cell no higher than its top,
+    and `beside` where it ends near the cell's distance. Neighbouring beams must agree."""
+    geometry, fan, range_m = view
+    x, y = cells[0] - fan.origin_m[0], cells[1] - fan.origin_m[1]
+    (a, b), (c, d) = fan.axes[0], fan.axes[1]
+    angle = np.arctan2(a * y - c * x, d * x - b * y)  # of the beam above or below the cell
+    beam = np.rint((angle - geometry.first_rad) * (1 / geometry.step_rad)).astype(np.int64)
+    inside = (beam >= 1) & (beam < len(range_m) - 1)
+    beam[~inside] = 0
+    level = np.hypot(fan.direction[:, 0], fan.direction[:, 1])
+    nearest, farthest = _neighbours(range_m * level)
+    distance = np.hypot(x, y)
+    height = fan.origin_m[2] + distance * (fan.direction[:, 2] / level)[beam]
+    low = inside & (height <= cells[2] + 0.02 + 0.002 * distance)
+    over = nearest[beam] - distance
+    passed = low & (over > margin_m)
+    spread = (farthest - nearest < 2 * margin_m)[beam]  # else grazing: hits lie far apart
+    through |= passed
+    beside |= low & ~passed & (over > -margin_m) & spread
+
+
+def _neighbours(range_m: Floats) -> tuple[Floats, Floats]:
+    """Nearest and farthest of each beam and its two neighbours, shape (count,)."""
+    nearest, farthest = range_m.copy(), range_m.copy()
+    for one, other in ((slice(1, None), slice(None, -1)), (slice(None, -1), slice(1, None))):
+        np.minimum(nearest[one], range_m[other], out=nearest[one])
+        np.maximum(farthest[one], range_m[other], out=farthest[one])
+    return nearest, farthest
+
+
+# ---------------------------------------------------------------------- the vehicle
+
+
+def _turned(place: Floats, pose: Pose) -> tuple[Floats, Floats]:
+    """Places of the vehicle frame, shape (n, 2 or more), east and north in N."""
+    c, s = cos(pose.heading_rad), sin(pose.heading_rad)
+    x, y = place[:, 0], place[:, 1]
+    return pose.x_m + c * x - s * y, pose.y_m + s * x + c * y
+
+
+def _footprint(outline: Outline, cell_m: float) -> Floats:
+    """Places in the vehicle's outline, closer together than cells, shape (n, 2)."""
+    length, width = outline.front_m - outline.rear_m, 2 * outline.half_width_m
+    x = np.linspace(outline.rear_m, outline.front_m, int(length / cell_m * 1.5) + 1)
+    y = np.linspace(-outline.half_width_m, outline.half_width_m, int(width / cell_m * 1.5) + 1)
+    return np.stack(np.meshgrid(x, y), axis=-1).reshape(-1, 2)
+
+
+def _wheels(vehicle: VehicleParameters) -> Floats:
+    """Wheels of the front axle and at the reference point, shape (4, 2), vehicle frame."""
+    half = vehicle.track_m / 2
+    return np.array([(x, y) for x in (0.0, vehicle.wheelbase_m) for y in (-half, half)])
+
+
+def _sonar_arcs(vehicle: VehicleParameters) -> tuple[Floats, Floats]:
+    """Origin (n, 1, 3) of each sonar and directions (n, 3, 3) across its cone."""
+    mounts = vehicle.sonar_mounts.values()
+    origin = np.array([mount.position_m for mount in mounts])
+    across = np.array([-1.0, 0.0, 1.0]) * vehicle.sonar.half_cone_rad
+    yaw = np.array([mount.yaw_rad for mount in mounts])[:, None] + across
+    return origin[:, None, :], np.stack([np.cos(yaw), np.sin(yaw), np.zeros_like(yaw)], axis=-1)

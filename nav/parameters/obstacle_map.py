@@ -1,0 +1,88 @@
+"""Parameters of the environment sensor fusion: the ground profile and the obstacle map."""
+
+from dataclasses import dataclass
+
+
+@dataclass(frozen=True)
+class GroundParameters:
+    """How ground is told from obstacles: see `nav.fusion.ground_profile`."""
+
+    cell_m: float
+    step_m: float
+    """A point this high above the ground's bound is no ground, at the vehicle."""
+    tilt_rad: float
+    """What attitude and mounting errors add to `step_m`, a metre of distance."""
+    slope: float
+    """Steepest ground between neighbouring known cells."""
+    curvature_pm: float
+    """Sharpest bend of ground that has not been seen yet, [1/m]."""
+    reach_m: float
+    """How far known ground says something about its surroundings."""
+    teaching_slope: float
+    """Only beams that fall at least this much per metre teach the ground."""
+    teaching_range_m: float
+    doubt_m: float
+    """How far a known height may exceed what the ground around it lets expect."""
+    gain: float
+    """Weight of a new height against the known one."""
+    clearance_m: float
+    """What hangs higher does not stand in the way."""
+
+    def __post_init__(self) -> None:
+        _positive(self)
+
+
+@dataclass(frozen=True)
+class ConfidenceParameters:
+    """How confidence in a cell, 0 to 1, comes and goes: see `nav.fusion.obstacle_map`."""
+
+    hit: float
+    """One return; at most two count at once."""
+    occupied: float
+    """From here on a cell is an obstacle."""
+    clear_ps: float
+    """Loss where a beam passes through the cell, [1/s]."""
+    fade_ps: float
+    """Loss where a beam ends at the cell's distance and never in it, [1/s]."""
+    margin_m: float
+    """How far a beam must go on beyond a cell to have passed it."""
+    sonar: float
+    """One echo."""
+    sonar_limit: float
+    """Echoes alone never lift a cell beyond this."""
+
+    def __post_init__(self) -> None:
+        _positive(self)
+        if self.hit >= self.occupied:
+            raise ValueError(f"hit is {self.hit}; must be below occupied, {self.occupied}")
+
+
+@dataclass(frozen=True)
+class ObstacleMapParameters:
+    """`obstacle_map.toml`."""
+
+    cell_m: float
+    size_m: float
+    scroll_m: float
+    """The map moves when the vehicle is farther than this from its middle."""
+    max_range_m: float
+    """Returns from beyond are left out."""
+    scans_per_sensor: int
+    """The newest scans of each scanner that one tick takes in."""
+    sonar_range_m: float
+    """Echoes from beyond are left out."""
+    confidence: ConfidenceParameters
+    ground: GroundParameters
+
+    def __post_init__(self) -> None:
+        _positive(self)
+        if self.size_m % (2 * self.ground.cell_m) or not self.scroll_m < self.size_m / 4:
+            raise ValueError(
+                "size_m must be a multiple of two ground cells, scroll_m a quarter of it"
+            )
+
+
+def _positive(parameters: object) -> None:
+    for name, value in vars(parameters).items():
+        if isinstance(value, int | float) and not value > 0:
+            raise ValueError(f"{name} is {value}; must be positive")
