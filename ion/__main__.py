@@ -1,0 +1,50 @@
+"""The `ion` command."""
+
+import sys
+from typing import Annotated, NoReturn
+
+from scenarios.processor import fix_processor
+
+BAD_INPUT, INTERRUPTED = 2, 130
+
+
+def main() -> NoReturn:
+    """Entry point: fix the processor before numpy loads, then do as the arguments say."""
+    fix_processor()
+    from ion.errors import UsageError
+    from nav.errors import NavError
+    from tape.errors import TapeError
+
+    try:
+        sys.exit(_command())
+    except (UsageError, NavError, TapeError) as error:
+        print(f"ion: {error}", file=sys.stderr)
+        sys.exit(BAD_INPUT)
+    except KeyboardInterrupt:
+        print("ion: interrupted", file=sys.stderr)
+        sys.exit(INTERRUPTED)
+
+
+def _command() -> int:
+    import tyro
+
+    from ion.options import Options
+
+    app = tyro.extras.SubcommandApp()
+
+    @app.command
+    def drive(options: Annotated[Options, tyro.conf.arg(name="")]) -> int:
+        """Let the twin of ION drive a course, and say how it went."""
+        from ion import drive as command
+
+        return command.drive(options)
+
+    return app.cli(
+        prog="ion",
+        description="ION, the six-wheeler of the Grand Challenge 2005, as a digital twin.",
+        config=(tyro.conf.FlagCreatePairsOff,),
+    )
+
+
+if __name__ == "__main__":
+    main()

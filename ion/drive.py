@@ -1,0 +1,64 @@
+"""`ion drive`: one episode or many, told as a table or as JSON."""
+
+import sys
+import time
+from typing import Any
+
+from rich.console import Console
+
+from ion.job import Job
+from ion.options import Options, job_of, seeds_of
+from ion.report import Bar, as_json, line, summary, table
+from scenarios.batch import many
+
+FINISHED, NOT_FINISHED, INTERRUPTED = 0, 1, 130
+
+
+def drive(options: Options) -> int:
+    """Do what the options ask; returns the exit code.
+
+    Raises:
+        UsageError: an option is wrong.
+        NavError: the route file is wrong.
+    """
+    seeds, job = seeds_of(options), job_of(options)
+    if options.seeds is None:
+        return _one(job, seeds[0], options.json)
+    return _many(job, seeds, options)
+
+
+def _one(job: Job, seed: int, json: bool) -> int:
+    with Bar(f"{job.source.name} {seed}") as bar:
+        result = job.drive(seed, [bar])
+    if json:
+        print(as_json(result))
+    else:
+        Console().print(table(result))
+        for what, path in (("tape", result["log"]), ("map", result["map"])):
+            print(f"{what}: {path or 'not kept'}")
+    return _code([result])
+
+
+def _many(job: Job, seeds: list[int], options: Options) -> int:
+    started, results = time.perf_counter(), list[dict[str, Any]]()
+    for result in many(job.drive_in_worker, seeds, options.jobs):
+        results.append({"scenario": job.source.name} | result)
+        print(as_json(results[-1]) if options.json else line(result), flush=True)
+        print(f"{len(results)} of {len(seeds)} episodes", file=sys.stderr)
+    counts = {"scenario": job.source.name} | summary(results, time.perf_counter() - started)
+    print(as_json(counts) if options.json else _told(counts))
+    return _code(results)
+
+
+def _told(counts: dict[str, Any]) -> str:
+    failed = ", ".join(str(seed) for seed in counts["failed_seeds"])
+    return f"{counts['finished']} of {counts['episodes']} finished" + (
+        f"; not finished: seeds {failed}" if failed else ""
+    )
+
+
+def _code(results: list[dict[str, Any]]) -> int:
+    outcomes = [result["outcome"] for result in results]
+    if "interrupted" in outcomes:
+        return INTERRUPTED
+    return FINISHED if all(word == "finished" for word in outcomes) else NOT_FINISHED

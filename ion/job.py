@@ -1,0 +1,105 @@
+"""One drive from its course to its tape and map. A job can be sent to another process."""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from importlib.resources import files
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from ion.courses import Source
+from scenarios.batch import stop_asked
+from scenarios.processor import fingerprint
+from scenarios.run import Watch, run
+
+if TYPE_CHECKING:
+    from ion.trace import Trace
+    from scenarios.course import Course
+    from scenarios.episode import Episode
+    from tape.writer import TapeWriter
+
+METERS_A_MILE = 1609.344
+
+
+@dataclass(frozen=True)
+class Job:
+    """What `ion drive` was asked for, without the seed."""
+
+    source: Source
+    out: Path
+    log: str = "full"
+    ablate: tuple[str, ...] = ()
+    failures_only: bool = False
+    """Whether tape and map of a drive that finished are not kept."""
+
+    def drive(self, seed: int, watches: Sequence[Watch] = ()) -> dict[str, Any]:
+        """Drive one seed to its end; returns its figures, and where tape (`log`) and `map` lie.
+
+        Raises:
+            NavError: the route cannot be driven.
+            OSError: tape or map cannot be written.
+        """
+        from ion.trace import Trace
+        from scenarios.episode import Episode
+
+        course, trace, tape = self.source.course(seed), Trace(), self.path(seed, ".mcap")
+        episode = Episode(course, seed, self.ablate)
+        with self._writer(course, seed, tape) as writer:
+            figures = run(episode, writer, [*watches, trace])
+        figures |= {"scenario": self.source.name, "ablate": list(self.ablate)}
+        if self.failures_only and figures["outcome"] == "finished":
+            tape.unlink(missing_ok=True)
+            return figures | {"log": None, "map": None}
+        log = None if self.log == "off" else str(tape)
+        return figures | {"log": log, "map": self._draw(course, trace, episode, seed)}
+
+    def drive_in_worker(self, seed: int) -> dict[str, Any]:
+        """As `drive`, for `scenarios.batch`: stops when the user wants no more."""
+        return self.drive(seed, [_stop_when_asked])
+
+    def path(self, seed: int, suffix: str) -> Path:
+        """Where a file of this drive lies."""
+        name = "_".join((self.source.name, *self.ablate, f"seed{seed}"))
+        return self.out / f"{name}{suffix}"
+
+    def _writer(self, course: "Course", seed: int, path: Path) -> "TapeWriter":
+        from scenarios.episode import parameter_texts
+        from tape.writer import TapeWriter
+
+        said = {"scenario": self.source.name, "seed": str(seed), "ablate": " ".join(self.ablate)}
+        attached = {course.route_name: course.route_text, **parameter_texts()}
+        if self.source.scenario:
+            folder = files("scenarios") / self.source.scenario
+            attached["scenario.toml"] = (folder / "scenario.toml").read_text(encoding="utf-8")
+        return TapeWriter(path, attached, said | fingerprint(), self.log, _view())
+
+    def _draw(self, course: "Course", trace: "Trace", episode: "Episode", seed: int) -> str:
+        from ion.map_picture import draw_map
+
+        path = self.path(seed, ".png")
+        title = _title(course.title, seed, episode.figures())
+        draw_map(course, trace, episode.judge, title, path)
+        return str(path)
+
+
+def _stop_when_asked(episode: "Episode", records: object) -> None:
+    del episode, records  # Unused.
+    if stop_asked():
+        raise KeyboardInterrupt
+
+
+def _view() -> Any:
+    """Draws `/view/`, knowing where the scanners sit."""
+    from nav.parameters import parameters_from
+    from scenarios.episode import parameter_texts
+    from tape.view import View
+
+    return View(parameters_from(parameter_texts()).vehicle.lidar_mounts)
+
+
+def _title(course: str, seed: int, figures: dict[str, Any]) -> str:
+    minutes, seconds = divmod(round(figures["sim_time_s"]), 60)
+    gates = f"{figures['gates_passed']} of {figures['gates_total']} gates, "
+    return (
+        f"{course}\nSeed {seed}: {figures['outcome']}, {gates if figures['gates_total'] else ''}"
+        f"{figures['distance_m'] / METERS_A_MILE:.2f} miles in {minutes}:{seconds:02d} min"
+    )

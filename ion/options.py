@@ -1,0 +1,112 @@
+"""The arguments of `ion drive`, as typed; and what they mean, checked."""
+
+import re
+from dataclasses import dataclass
+from pathlib import Path
+from tempfile import TemporaryFile
+from typing import Annotated, Literal
+
+from tyro.conf import Positional, arg
+
+from ion.courses import Source, route_source, scenario_names, scenario_source
+from ion.errors import UsageError
+from ion.job import Job
+
+Log = Literal["full", "inputs", "light", "off"]
+MAX_SEED = 2**32 - 1
+
+
+@dataclass(frozen=True)
+class Options:
+    """What one can ask of a drive."""
+
+    scenario: Annotated[Positional[str | None], arg(metavar="SCENARIO")] = None
+    """Name of a scenario, such as nqe. Leave it out with --route."""
+    seed: Annotated[int, arg(metavar="N")] = 0
+    """Draws all that the scenario leaves open, and all noise."""
+    seeds: Annotated[str | None, arg(metavar="N-M")] = None
+    """Many seeds, such as 0-19 or 1,4,7-9: one episode each."""
+    jobs: Annotated[int, arg(metavar="N")] = 1
+    """How many episodes at a time, one process each."""
+    out: Annotated[Path, arg(metavar="FOLDER")] = Path("runs")
+    """Where tapes and maps go."""
+    json: bool = False
+    """One JSON object a line on standard output instead of a table."""
+    ablate: Annotated[tuple[str, ...], arg(metavar="NAME...")] = ()
+    """Drive without a sensor: blind, no-sonar, no-gps, no-imu, no-lidar-roof, ..."""
+    log: Annotated[Log | None, arg(metavar="full|inputs|light|off")] = None
+    """What goes on the tape: all; no /view/; no LIDAR scans; no tape. Default: full, and of many
+    seeds the tapes of failures only."""
+    route: Annotated[Path | None, arg(metavar="FILE")] = None
+    """A route definition file (RDDF) to drive instead of a scenario."""
+    first: Annotated[int | None, arg(name="from", metavar="WAYPOINT")] = None
+    """With --route: number of the waypoint to begin at."""
+    last: Annotated[int | None, arg(name="to", metavar="WAYPOINT")] = None
+    """With --route: number of the waypoint to end at."""
+
+
+def job_of(options: Options) -> Job:
+    """The job that the options describe; all that can be wrong is found before anything starts.
+
+    Raises:
+        UsageError: an option is wrong.
+        NavError: the route file is wrong.
+    """
+    source = _source(options)
+    _check_ablations(options.ablate)
+    if options.jobs < 1:
+        raise UsageError(f"--jobs {options.jobs}: expected 1 or more")
+    _check_folder(options.out)
+    few = options.seeds is not None and options.log is None
+    return Job(source, options.out, options.log or "full", options.ablate, failures_only=few)
+
+
+def seeds_of(options: Options) -> list[int]:
+    """The seeds that the options name, in order, each once.
+
+    Raises:
+        UsageError: they name none, or it is no list of seeds.
+    """
+    parts = [str(options.seed)] if options.seeds is None else options.seeds.split(",")
+    found: dict[int, None] = {}
+    for part in parts:
+        match = re.fullmatch(r"\s*(\d{1,10})(?:-(\d{1,10}))?\s*", part)
+        low, high = (int(match[1]), int(match[2] or match[1])) if match else (1, 0)
+        if not low <= high <= MAX_SEED:
+            what = "--seed" if options.seeds is None else "--seeds"
+            raise UsageError(f"{what} {part!r}: expected whole numbers such as 7, 0-19 or 1,4,7-9")
+        found |= dict.fromkeys(range(low, high + 1))
+    return list(found)
+
+
+def _source(options: Options) -> Source:
+    if options.route is not None:
+        if options.scenario is not None:
+            raise UsageError(f"{options.scenario!r} and --route: expected one of them")
+        return route_source(options.route, options.first, options.last)
+    if options.first is not None or options.last is not None:
+        raise UsageError("--from and --to: expected --route FILE with them")
+    if options.scenario is None:
+        there_are = ", ".join(scenario_names())
+        raise UsageError(f"expected a scenario or --route FILE; scenarios: {there_are}")
+    return scenario_source(options.scenario)
+
+
+def _check_ablations(names: tuple[str, ...]) -> None:
+    """Loads the twin's sensors only where something is to be taken away."""
+    if names:
+        from scenarios.ablation import disabled_sensors
+
+        try:
+            disabled_sensors(names)
+        except ValueError as error:
+            raise UsageError(str(error)) from error
+
+
+def _check_folder(folder: Path) -> None:
+    try:
+        folder.mkdir(parents=True, exist_ok=True)
+        with TemporaryFile(dir=folder):
+            pass
+    except OSError as error:
+        raise UsageError(f"--out {folder}: cannot be written: {error.strerror}") from error
