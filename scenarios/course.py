@@ -5,6 +5,8 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from nav.route.rddf import FOOT_M as FOOT_M
+from nav.route.rddf import MPH_MPS as MPH_MPS
 from nav.route.rddf import Route
 from twin.earth import to_world
 from twin.world import World

@@ -25,17 +25,22 @@ SKY = np.radians(
 """Azimuth counter-clockwise from east and elevation: a GPS sky."""
 
 
-def build(text: str, name: str, first: int, last: int, seed: int) -> Course:
-    """The waypoints numbered `first` to `last` of a route file, as `seed` draws the world there.
+def build(text: str, name: str, first: int | None, last: int | None, seed: int) -> Course:
+    """A stretch of a route file, as `seed` draws the world there.
 
     Args:
         text: the route file's text.
         name: the route file's name, for messages.
+        first: waypoint number where the stretch begins; None is the route's first.
+        last: waypoint number where it ends; None is the route's last.
 
     Raises:
         RouteError: not a route file, or a stretch that it does not have.
     """
-    route = rddf.parse(text, name).stretch(first, last)
+    whole = rddf.parse(text, name)
+    first = int(whole.number[0]) if first is None else first
+    last = int(whole.number[-1]) if last is None else last
+    route = whole.stretch(first, last)
     anchor = float(route.latitude_deg[0]), float(route.longitude_deg[0])
     waypoint_m = route_points_m(route, anchor)
     ground = RollingGround(seed, DESERT)
