@@ -1,0 +1,148 @@
+"""The algebra of the ego state's extended Kalman filter: predict, and update by one scalar."""
+
+import math
+from dataclasses import dataclass, field
+from typing import NamedTuple
+
+import numpy as np
+
+from nav.messages import Floats
+from nav.parameters.ego_state import EgoParameters
+
+X, Y, HEADING, SPEED, GYRO_BIAS, COMPASS_BIAS, WHEEL_SCALE, GPS_X, GPS_Y = range(9)
+"""The state. GPS_X and GPS_Y are the receiver's slow offset in units of its stated standard
+deviation, first-order Gauss-Markov with variance 1, so that they follow what the receiver says."""
+SIZE = 9
+MIN_WAY_RATE_MPS = 1e-3
+"""A standing vehicle's position still forgets a little: the covariance stays regular."""
+
+Row = tuple[tuple[int, float], ...]
+"""A row of the measurement matrix: (state, coefficient) of what is not zero."""
+
+
+def along(row: Row, moved: Floats) -> float:
+    """By how much a measurement's expectation moves with the state."""
+    total = 0.0
+    for i, a in row:
+        total += a * float(moved[i])
+    return total
+
+
+class Drive(NamedTuple):
+    """What dead reckoning goes by until something newer arrives."""
+
+    yaw_rate_radps: float = 0.0
+    """The gyro's bias still in it, if it is the gyro's."""
+    gyro: bool = False
+    cos_pitch: float = 1.0
+    """Speed times this is horizontal."""
+    yaw_q: float = 0.0
+    """Variance of the heading's growth, [rad^2/s]."""
+
+
+@dataclass
+class Filter:
+    """State, covariance, and since when each source has been refused."""
+
+    parameters: EgoParameters
+    state: Floats = field(default_factory=lambda: np.zeros(SIZE))
+    covariance: Floats = field(default_factory=lambda: np.zeros((SIZE, SIZE)))
+    refused_since_ns: dict[str, int] = field(default_factory=dict[str, int])
+    _transition: Floats = field(default_factory=lambda: np.eye(SIZE))
+
+    def yaw_rate(self, drive: Drive) -> float:
+        """The heading's rate, without the gyro's bias, [rad/s]."""
+        return drive.yaw_rate_radps - (float(self.state[GYRO_BIAS]) if drive.gyro else 0.0)
+
+    def predict(self, dt_s: float, drive: Drive) -> None:
+        """Drive on for `dt_s`, [s]."""
+        x, y, heading, v = self.state[:4].tolist()
+        turn = self.yaw_rate(drive) * dt_s
+        ahead = dt_s * drive.cos_pitch
+        way = v * ahead
+        c, s = math.cos(heading + 0.5 * turn), math.sin(heading + 0.5 * turn)
+        self.state[:3] = x + way * c, y + way * s, heading + turn
+        F = self._transition
+        F[X, HEADING], F[Y, HEADING] = -way * s, way * c
+        F[X, SPEED], F[Y, SPEED] = ahead * c, ahead * s
+        F[HEADING, GYRO_BIAS] = -dt_s if drive.gyro else 0.0
+        F[GPS_X, GPS_X] = F[GPS_Y, GPS_Y] = fade = math.exp(-dt_s / self.parameters.gps.offset_s)
+        self.state[GPS_X:] *= fade
+        P = F @ self.covariance @ F.T
+        P.ravel()[:: SIZE + 1] += self._noise(dt_s, abs(v), drive.yaw_q, fade)
+        self.covariance = P
+
+    def _noise(self, dt_s: float, speed_mps: float, yaw_q: float, fade: float) -> Floats:
+        """The diagonal of Q."""
+        p = self.parameters
+        slip = p.motion.slip_m**2 * (speed_mps + MIN_WAY_RATE_MPS) * dt_s
+        offset = 1.0 - fade * fade
+        return np.array([
+            slip, slip, yaw_q * dt_s, p.motion.acceleration_mps2**2 * dt_s,
+            p.motion.gyro_bias_radps**2 * dt_s, p.compass.bias_drift_rad**2 * dt_s,
+            p.wheels.scale_drift**2 * dt_s, offset, offset,
+        ])  # fmt: skip
+
+    def fits(self, row: Row, innovation: float, variance: float) -> bool:
+        """Whether the innovation, measured - expected, lies within the gate."""
+        return self._within(innovation, self._project(row)[1] + variance)
+
+    def correct(
+        self, source: str, time_ns: int, row: Row, innovation: float, variance: float
+    ) -> None:
+        """`update` behind the gate. What was refused for too long makes doubt of row's first."""
+        gain, spread = self._project(row)
+        fits = self._within(innovation, spread + variance)
+        if self.admit(source, time_ns, fits):
+            if not fits:
+                self.doubt(row[0][0], innovation)
+                gain, spread = self._project(row)
+            self._move(gain, innovation, spread + variance)
+
+    def update(self, row: Row, innovation: float, variance: float) -> Floats:
+        """Take one scalar measurement; `variance` is that of its noise.
+
+        Returns:
+            By how much the state moved, shape (9,).
+        """
+        gain, spread = self._project(row)
+        return self._move(gain, innovation, spread + variance)
+
+    def _project(self, row: Row) -> tuple[Floats, float]:
+        """P H^T, shape (9,), and H P H^T."""
+        i, a = row[0]
+        gain = self.covariance[i] * a
+        for i, a in row[1:]:
+            gain = gain + self.covariance[i] * a
+        return gain, along(row, gain)
+
+    def _within(self, innovation: float, variance: float) -> bool:
+        return innovation * innovation <= self.parameters.gate.sd**2 * variance
+
+    def _move(self, gain: Floats, innovation: float, variance: float) -> Floats:
+        moved = gain * (innovation / variance)
+        self.state += moved
+        self.covariance = self.covariance - gain[:, None] * gain * (1.0 / variance)
+        return moved
+
+    def admit(self, source: str, time_ns: int, fits: bool) -> bool:
+        """Whether a source may speak: it fits, or has been refused for longer than patience."""
+        if fits:
+            self.refused_since_ns.pop(source, None)
+            return True
+        since = self.refused_since_ns.setdefault(source, time_ns)
+        if time_ns - since < self.parameters.gate.patience_s * 1e9:
+            return False
+        del self.refused_since_ns[source]
+        return True
+
+    def doubt(self, index: int, innovation: float) -> None:
+        """A refused source was right after all: the state may be wrong by as much."""
+        self.covariance[index, index] += innovation * innovation
+
+    def redraw_gps_offset(self) -> None:
+        """The receiver's offset is another one now: forget it and what it went along with."""
+        self.state[GPS_X:] = 0.0
+        self.covariance[GPS_X:, :] = 0.0
+        self.covariance[:, GPS_X:] = 0.0
+        self.covariance[GPS_X, GPS_X] = self.covariance[GPS_Y, GPS_Y] = 1.0

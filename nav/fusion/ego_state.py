@@ -1,0 +1,250 @@
+"""The ego state: an extended Kalman filter over GPS, IMU, wheels and compass.
+
+Dead reckoning (yaw rate of the gyro, speed of the wheels) runs forward; every other sensor
+corrects it. Any sensor may be missing but the GPS, without which there is no start.
+"""
+
+import math
+from dataclasses import dataclass
+
+from nav.fusion import ego_gps
+from nav.fusion.ego_filter import (
+    COMPASS_BIAS,
+    GYRO_BIAS,
+    HEADING,
+    SPEED,
+    WHEEL_SCALE,
+    Drive,
+    Filter,
+    Y,
+)
+from nav.fusion.ego_kinematics import (
+    Attitude,
+    attitude_of,
+    curvature,
+    heading_rate,
+    level,
+    speed_of_wheels,
+    wrapped,
+)
+from nav.fusion.ego_start import Start
+from nav.fusion.scan_geometry import Pose
+from nav.messages import (
+    CompassHeading,
+    EgoEstimate,
+    Gear,
+    GpsFix,
+    GpsQuality,
+    ImuSample,
+    SensorMessage,
+    VehicleState,
+)
+from nav.parameters.ego_state import EgoParameters
+from nav.parameters.vehicle import VehicleParameters
+from nav.route.geodesy import Frame
+
+ACCELERATION_S = 0.2
+"""Time constant of the acceleration that carries the speed back to a delayed fix."""
+SILENT_S = 0.5
+"""Nothing is extrapolated farther than this."""
+
+
+@dataclass
+class _Last:
+    """What each sensor said last."""
+
+    attitude: Attitude
+    imu_ns: int | None = None
+    wheels_ns: int | None = None
+    speed_mps: float = 0.0
+    """The filter's, after the wheels had spoken."""
+    fix: GpsFix | None = None
+    direction: float = 1.0
+    """-1 when the gear says that the wheels turn backwards."""
+    acceleration_mps2: float = 0.0
+
+    def accelerate(self, time_ns: int, speed_mps: float) -> None:
+        """Take a new speed into the smoothed acceleration."""
+        if self.wheels_ns is not None and time_ns > self.wheels_ns:
+            dt = (time_ns - self.wheels_ns) * 1e-9
+            change = (speed_mps - self.speed_mps) / dt - self.acceleration_mps2
+            self.acceleration_mps2 += change * min(dt / ACCELERATION_S, 1.0)
+        self.wheels_ns, self.speed_mps = time_ns, speed_mps
+
+
+class EgoState:
+    """Where the vehicle is, fused from whatever sensors speak. Picklable."""
+
+    def __init__(
+        self,
+        parameters: EgoParameters,
+        vehicle: VehicleParameters,
+        frame: Frame,
+        crew_heading_rad: float | None = None,
+    ) -> None:
+        """`crew_heading_rad`: for a start without a compass, within some 20 degrees; see Start."""
+        self.parameters = parameters
+        self.vehicle = vehicle
+        self.frame = frame
+        self.filter = Filter(parameters)
+        self._start: Start | None = Start(parameters, crew_heading_rad)
+        self._last = _Last(Attitude())
+        self._drive = Drive()
+        self._first_ns: int | None = None
+        self._started_ns = 0
+        self._time_ns = 0
+
+    @property
+    def ready(self) -> bool:
+        """Whether position and heading are known and have settled."""
+        settled = self._time_ns - self._started_ns >= self.parameters.start.settle_s * 1e9
+        return self._start is None and settled
+
+    def update(self, message: SensorMessage) -> None:
+        """Take one message, in order of delivery. Scans are of no concern here."""
+        if self._first_ns is None:
+            self._first_ns = message.time_ns
+        if self._start:
+            self._begin(self._start, message)
+        elif message.time_ns > self._time_ns:
+            self._advance(message.time_ns)
+        if isinstance(message, ImuSample):
+            self._take_imu(message)
+        elif isinstance(message, VehicleState):
+            self._take_wheels(message)
+        elif isinstance(message, GpsFix):
+            self._take_fix(message)
+        elif isinstance(message, CompassHeading):
+            self._take_compass(message)
+
+    def estimate(self, time_ns: int) -> EgoEstimate | None:
+        """The ego state at `time_ns`, extrapolated with the present rates; None until `ready`."""
+        if not self.ready:
+            return None
+        x, y, heading, roll, pitch = self.pose_at(time_ns)
+        P = self.filter.covariance
+        return EgoEstimate(
+            time_ns=time_ns,
+            position_m=(x, y),  # pyright: ignore[reportArgumentType]  (messages make the array)
+            heading_rad=heading,
+            speed_mps=float(self.filter.state[SPEED]),
+            yaw_rate_radps=self.filter.yaw_rate(self._drive),
+            roll_rad=roll,
+            pitch_rad=pitch,
+            position_sd_m=math.sqrt(0.5 * float(P[0, 0] + P[Y, Y])),
+            heading_sd_rad=math.sqrt(float(P[HEADING, HEADING])),
+        )
+
+    def pose_at(self, time_ns: int) -> Pose:
+        """The pose some milliseconds before or after the newest message; heading in (-pi, pi]."""
+        dt = min(max((time_ns - self._time_ns) * 1e-9, -SILENT_S), SILENT_S)
+        x, y, heading, v = self.filter.state[:4].tolist()
+        turn = self.filter.yaw_rate(self._drive) * dt
+        way = v * dt * self._drive.cos_pitch
+        middle = heading + 0.5 * turn
+        a = self._last.attitude.at(dt)
+        x, y = x + way * math.cos(middle), y + way * math.sin(middle)
+        return Pose(x, y, wrapped(heading + turn), a.roll_rad, a.pitch_rad)
+
+    def gps_lost_s(self, time_ns: int) -> float:
+        """Time since the last fix [s]; before any, since the first message of all."""
+        since = self._last.fix.time_ns if self._last.fix else self._first_ns
+        return 0.0 if since is None else max(time_ns - since, 0) * 1e-9
+
+    # ------------------------------------------------------------ start and dead reckoning
+
+    def _begin(self, start: Start, message: SensorMessage) -> None:
+        first = start.take(message)
+        if first is None or not isinstance(message, GpsFix):
+            return
+        self._time_ns = self._started_ns = message.time_ns
+        self._start = None
+        antenna = self.frame.point(message.latitude_deg, message.longitude_deg)
+        mount = self.vehicle.gps_position_m
+        ego_gps.begin(self.filter, antenna, message.sd_m, first, level(mount, self._last.attitude))
+
+    def _advance(self, time_ns: int) -> None:
+        self.filter.predict((time_ns - self._time_ns) * 1e-9, self._drive)
+        self._time_ns = time_ns
+
+    def _take_imu(self, sample: ImuSample) -> None:
+        attitude = attitude_of(sample)
+        self._last.attitude, self._last.imu_ns = attitude, sample.time_ns
+        yaw_q = self.parameters.motion.gyro_radps**2
+        self._drive = Drive(heading_rate(attitude), True, math.cos(attitude.pitch_rad), yaw_q)
+
+    def _imu_speaks(self, time_ns: int) -> bool:
+        last = self._last.imu_ns
+        return last is not None and time_ns - last < self.parameters.imu_patience_s * 1e9
+
+    # ------------------------------------------------------------ corrections
+
+    def _take_wheels(self, state: VehicleState) -> None:
+        if not self._imu_speaks(state.time_ns):
+            self._drive_by_steering(state.steering_rad)
+        if state.gear is not Gear.NEUTRAL and not state.shifting:
+            self._last.direction = -1.0 if state.gear is Gear.REVERSE else 1.0
+        wheels = [self._last.direction * w for w in state.wheel_speed_mps.tolist()]
+        if self._start is None:
+            yaw_rate = self.filter.yaw_rate(self._drive)
+            speed = speed_of_wheels(wheels, yaw_rate, self.vehicle)
+            if abs(speed) < self.parameters.wheels.still_mps:
+                self._correct_at_rest(state.time_ns)
+            else:
+                self._correct_speed(state.time_ns, speed)
+            self._last.accelerate(state.time_ns, float(self.filter.state[SPEED]))
+
+    def _drive_by_steering(self, steering_rad: float) -> None:
+        speed = float(self.filter.state[SPEED])
+        rate = speed * curvature(steering_rad, self.vehicle.steering)
+        yaw_q = (self.parameters.motion.steering_per_m * speed) ** 2
+        self._last.attitude = Attitude(rate_radps=(0.0, 0.0, rate))
+        self._drive = Drive(rate, False, 1.0, yaw_q)
+
+    def _correct_speed(self, time_ns: int, speed_mps: float) -> None:
+        p, v = self.parameters.wheels, float(self.filter.state[SPEED])
+        scale = 1.0 + float(self.filter.state[WHEEL_SCALE])
+        row = ((SPEED, scale), (WHEEL_SCALE, v))
+        variance = p.sd_mps**2 + (p.sd_share * speed_mps) ** 2
+        self.filter.correct("wheels", time_ns, row, speed_mps - scale * v, variance)
+
+    def _correct_at_rest(self, time_ns: int) -> None:
+        """A counter without sign makes speed of noise: at rest it is 0, and so is the yaw rate."""
+        p, v = self.parameters.wheels, float(self.filter.state[SPEED])
+        self.filter.correct("wheels", time_ns, ((SPEED, 1.0),), -v, p.still_sd_mps**2)
+        if self._drive.gyro and abs(v) < p.still_mps:
+            rate = self.filter.yaw_rate(self._drive)
+            self.filter.update(((GYRO_BIAS, 1.0),), rate, p.still_gyro_sd_radps**2)
+
+    def _take_fix(self, fix: GpsFix) -> None:
+        if fix.quality is GpsQuality.NONE:
+            return
+        before, self._last.fix = self._last.fix, fix
+        if before is None or self._start or fix.time_ns <= self._started_ns:
+            return
+        if ego_gps.is_another_offset(self.parameters, fix, before):
+            self.filter.redraw_gps_offset()
+        mount = self.vehicle.gps_position_m
+        ego_gps.correct_velocity(self.filter, fix, self._past(fix.time_ns), mount)
+        antenna = self.frame.point(fix.latitude_deg, fix.longitude_deg)
+        ego_gps.correct_position(self.filter, antenna, fix, self._past(fix.time_ns), mount)
+
+    def _past(self, time_ns: int) -> ego_gps.Past:
+        """The vehicle at a fix's time, from the present state and rates."""
+        age = (self._time_ns - time_ns) * 1e-9
+        pose = self.pose_at(time_ns)
+        level_speed = self._drive.cos_pitch * float(self.filter.state[SPEED])
+        speed = level_speed - self._last.acceleration_mps2 * age
+        attitude = self._last.attitude.at(-age)
+        return ego_gps.Past(pose.x_m, pose.y_m, pose.heading_rad, speed, attitude, age)
+
+    def _take_compass(self, compass: CompassHeading) -> None:
+        if self._start:
+            return
+        age = (self._time_ns - compass.time_ns) * 1e-9
+        heading, bias = float(self.filter.state[HEADING]), float(self.filter.state[COMPASS_BIAS])
+        expected = heading - self.filter.yaw_rate(self._drive) * age + bias
+        innovation = wrapped(compass.heading_rad - expected)
+        row = ((COMPASS_BIAS, 1.0), (HEADING, 1.0))
+        variance = self.parameters.compass.sd_rad**2
+        self.filter.correct("compass", compass.time_ns, row, innovation, variance)
