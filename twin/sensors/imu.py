@@ -1,0 +1,48 @@
+"""Vertical gyro: angular rates, specific force, and roll and pitch against a slow vertical."""
+
+import numpy as np
+
+from nav.messages import ImuSample
+from twin.sensors.parameters import ImuParameters
+from twin.sensors.sensor import Floats, View, generator, schedule
+
+
+class Imu:
+    """Rates and accelerations with bias and noise.
+
+    The vertical is erected slowly towards the apparent one, which accelerations tilt: this is the
+    dynamic error of roll and pitch, de/dt = (apparent - true - e) / erection time.
+    """
+
+    name = "imu"
+
+    def __init__(self, seed: int, p: ImuParameters) -> None:
+        self.schedule = schedule(p)
+        self._p = p
+        self._rng = generator(seed, self.name)
+        self._gyro_bias = p.gyro_bias_sd_radps * self._rng.standard_normal(3)
+        self._accelerometer_bias = p.accelerometer_bias_sd_mps2 * self._rng.standard_normal(3)
+        self._tilt_bias = p.tilt_bias_max_rad * self._rng.uniform(-1.0, 1.0, 2)
+        self._tilt_error = np.zeros(2)
+
+    def measure(self, view: View, time_ns: int) -> ImuSample:
+        """The sample of this instant."""
+        p, noise = self._p, self._rng.standard_normal(8)
+        rate, force = view.imu()
+        tilt = tilt_of(view.site_pose(self.name)[1][2])
+        step = 1.0 / (p.rate_hz * p.erection_time_s)
+        self._tilt_error = self._tilt_error + step * (tilt_of(force) - tilt - self._tilt_error)
+        roll, pitch = tilt + self._tilt_bias + self._tilt_error + p.tilt_noise_rad * noise[6:]
+        return ImuSample(
+            time_ns,
+            rate + self._gyro_bias + p.gyro_noise_radps * noise[:3],
+            force + self._accelerometer_bias + p.accelerometer_noise_mps2 * noise[3:6],
+            float(roll),
+            float(pitch),
+        )
+
+
+def tilt_of(up: Floats) -> Floats:
+    """Roll (left side up) and pitch (nose down) [rad], shape (2,), from "up" in vehicle axes."""
+    x, y, z = up
+    return np.array([np.arctan2(y, z), np.arctan2(-x, np.hypot(y, z))])

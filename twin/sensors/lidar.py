@@ -1,0 +1,43 @@
+"""SICK LMS 221: ranges of 361 beams in one plane, in counts of a centimetre."""
+
+import numpy as np
+from numpy.typing import NDArray
+
+from nav.messages import LIDAR_COUNT_M, LIDAR_NO_RETURN_COUNT, LidarScan, lidar_range_m
+from twin.raycast import Scene, cast
+from twin.sensors.parameters import LidarParameters, MountingParameters
+from twin.sensors.sensor import Floats, View, draw_mounting, generator, schedule
+
+
+class Lidar:
+    """One scanner. A scan is taken at one instant; the mirror's turn within it is left out."""
+
+    def __init__(
+        self, unit: str, scene: Scene, seed: int, p: LidarParameters, mounting: MountingParameters
+    ) -> None:
+        self.name = unit
+        self.schedule = schedule(p, p.stagger_steps * p.units.index(unit))
+        self._p, self._scene = p, scene
+        self._rng = generator(seed, unit)
+        self._mounting = draw_mounting(self._rng, mounting)
+        self._bias_m = p.bias_sd_m * self._rng.standard_normal()
+        self._fan = _fan(p)
+
+    def measure(self, view: View, time_ns: int) -> LidarScan:
+        """The scan of this instant."""
+        position, rotation = self._mounting.pose(view, self.name)
+        true_m = cast(self._scene, position, self._fan, self._p.max_range_m, rotation)
+        noise_m = self._bias_m + self._p.noise_sd_m * self._rng.standard_normal(self._p.beams)
+        return LidarScan(time_ns, self.name, lidar_range_m(self._counts(true_m, noise_m)))
+
+    def _counts(self, true_m: Floats, noise_m: Floats) -> NDArray[np.uint16]:
+        last = LIDAR_NO_RETURN_COUNT - 1
+        counts = np.clip(np.rint((true_m + noise_m) / LIDAR_COUNT_M), 0, last)
+        counts[true_m >= self._p.max_range_m] = LIDAR_NO_RETURN_COUNT
+        return counts.astype(np.uint16)
+
+
+def _fan(p: LidarParameters) -> Floats:
+    """Unit directions (beams, 3) in the scanner's frame, x forward, first beam to the right."""
+    angle = np.linspace(-p.half_fan_rad, p.half_fan_rad, p.beams)
+    return np.stack([np.cos(angle), np.sin(angle), np.zeros(p.beams)], axis=1)

@@ -1,0 +1,35 @@
+"""Drive-by-wire unit: wheel speeds, and where the actuators are."""
+
+import numpy as np
+
+from nav.messages import Gear, VehicleState
+from twin.sensors.parameters import OdometryParameters
+from twin.sensors.sensor import View, generator, schedule
+
+
+class Odometry:
+    """Tooth counters know no sign and believe in one radius for all tires."""
+
+    name = "odometry"
+
+    def __init__(self, seed: int, p: OdometryParameters) -> None:
+        self.schedule = schedule(p)
+        self._p = p
+        self._rng = generator(seed, self.name)
+        self._radius_m = p.wheel_radius_m * (1.0 + p.scale_sd * self._rng.standard_normal(6))
+        self._steering_bias_rad = p.steering_bias_sd_rad * self._rng.standard_normal()
+
+    def measure(self, view: View, time_ns: int) -> VehicleState:
+        """The state of this instant."""
+        p, noise, applied = self._p, self._rng.standard_normal(9), view.applied
+        speed = self._radius_m * view.wheel_speed_radps + p.noise_sd_mps * noise[:6]
+        steering_error = self._steering_bias_rad + p.steering_noise_rad * noise[6]
+        return VehicleState(
+            time_ns,
+            wheel_speed_mps=np.abs(speed),
+            steering_rad=float(applied.steering_rad + steering_error),
+            throttle=float(applied.throttle + p.pedal_noise * noise[7]),
+            brake=float(applied.brake + p.pedal_noise * noise[8]),
+            gear=Gear(applied.gear),
+            shifting=bool(applied.shifting),
+        )

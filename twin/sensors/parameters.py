@@ -1,0 +1,119 @@
+"""`sensors.toml` as frozen structs; unknown keys are refused."""
+
+from pathlib import Path
+
+import msgspec
+
+
+class _Strict(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
+    pass
+
+
+class Timing(_Strict, frozen=True):
+    """When a device measures and when its message arrives."""
+
+    rate_hz: float
+    phase_steps: int
+    delay_steps: int
+
+
+class MountingParameters(_Strict, frozen=True):
+    """How far a device sits from where the drawing has it."""
+
+    position_sd_m: float
+    angle_sd_rad: float
+
+
+class LidarParameters(Timing, frozen=True):
+    """SICK LMS 221."""
+
+    stagger_steps: int
+    units: tuple[str, ...]
+    beams: int
+    half_fan_rad: float
+    max_range_m: float
+    noise_sd_m: float
+    bias_sd_m: float
+
+
+class SonarParameters(Timing, frozen=True):
+    """Massa M-5000/95."""
+
+    units: tuple[str, ...]
+    half_cone_rad: float
+    min_range_m: float
+    max_range_m: float
+    noise_sd_m: float
+    ground_echo_rad: float
+
+
+class GpsParameters(Timing, frozen=True):
+    """NovAtel ProPak-LB with OmniSTAR HP."""
+
+    sky_interval: int
+    sky_range_m: float
+    min_satellites: int
+    max_hdop: float
+    bias_sd_m: float
+    bias_time_s: float
+    noise_sd_m: float
+    vertical_factor: float
+    velocity_sd_mps: float
+    reacquire_s: tuple[float, float]
+    outage_sd_m: float
+    outage_time_s: float
+    converged_sd_m: float
+    sd_scale_sd: float
+
+
+class ImuParameters(Timing, frozen=True):
+    """Crossbow VG700."""
+
+    gyro_bias_sd_radps: float
+    gyro_noise_radps: float
+    accelerometer_bias_sd_mps2: float
+    accelerometer_noise_mps2: float
+    tilt_bias_max_rad: float
+    tilt_noise_rad: float
+    erection_time_s: float
+
+
+class CompassParameters(Timing, frozen=True):
+    """A digital compass."""
+
+    bias_sd_rad: float
+    noise_sd_rad: float
+
+
+class OdometryParameters(Timing, frozen=True):
+    """Drive-by-wire unit."""
+
+    wheel_radius_m: float
+    scale_sd: float
+    noise_sd_mps: float
+    steering_bias_sd_rad: float
+    steering_noise_rad: float
+    pedal_noise: float
+
+
+class SensorParameters(_Strict, frozen=True):
+    """The whole file."""
+
+    mounting: MountingParameters
+    lidar: LidarParameters
+    sonar: SonarParameters
+    gps: GpsParameters
+    imu: ImuParameters
+    compass: CompassParameters
+    odometry: OdometryParameters
+
+
+def sensor_parameters(text: str | None = None) -> SensorParameters:
+    """Parameters from TOML text, by default from the file beside this one.
+
+    Raises:
+        msgspec.ValidationError: an unknown or missing key or a wrong type; names its path.
+    """
+    if text is None:
+        text = Path(__file__).with_name("sensors.toml").read_text(encoding="utf-8")
+    return msgspec.toml.decode(text, type=SensorParameters)

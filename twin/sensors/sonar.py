@@ -1,0 +1,60 @@
+"""Ultrasonic rangers: the nearest echo within a cone."""
+
+import numpy as np
+
+from nav.messages import SonarScan
+from twin.raycast import GROUND, Scene, cast_hits
+from twin.sensors.parameters import MountingParameters, SonarParameters
+from twin.sensors.sensor import Floats, View, draw_mounting, generator, schedule
+
+_RIM = 6
+"""Rays on the rim of the cone, besides the one along its axis."""
+
+
+class Sonar:
+    """All sonars of the vehicle, heard together in one round.
+
+    Whatever stands on the ground throws an echo. The ground does so only where a ray meets it
+    steeply: flat sound is mirrored away.
+    """
+
+    name = "sonar"
+
+    def __init__(
+        self, scene: Scene, seed: int, p: SonarParameters, mounting: MountingParameters
+    ) -> None:
+        self.schedule = schedule(p)
+        self._p, self._scene = p, scene
+        self._rng = generator(seed, self.name)
+        self._mountings = {unit: draw_mounting(self._rng, mounting) for unit in p.units}
+        self._cone = _cone(p.half_cone_rad)
+
+    def measure(self, view: View, time_ns: int) -> SonarScan:
+        """The round of this instant."""
+        p = self._p
+        true_m = np.array([self._nearest(view, unit) for unit in p.units])
+        noise_m = p.noise_sd_m * self._rng.standard_normal(len(true_m))
+        heard_m = np.clip(true_m + noise_m, p.min_range_m, p.max_range_m)
+        return SonarScan(time_ns, np.where(true_m < p.max_range_m, heard_m, p.max_range_m))
+
+    def _nearest(self, view: View, unit: str) -> float:
+        position, rotation = self._mountings[unit].pose(view, f"sonar_{unit}")
+        limit = self._p.max_range_m
+        range_m, what = cast_hits(self._scene, position, self._cone, limit, rotation)
+        for i in np.flatnonzero(what == GROUND):
+            direction = rotation @ self._cone[i]
+            if not self._echoes(position + range_m[i] * direction, direction):
+                range_m[i] = limit
+        return float(range_m.min())
+
+    def _echoes(self, point: Floats, direction: Floats) -> bool:
+        normal = self._scene.ground_normal(point[0], point[1])
+        return bool(-direction @ normal >= np.sin(self._p.ground_echo_rad))
+
+
+def _cone(half_angle_rad: float) -> Floats:
+    """Unit directions (1 + _RIM, 3) about x: its axis and its rim."""
+    around = np.arange(_RIM) * (2.0 * np.pi / _RIM)
+    c, s = np.cos(half_angle_rad), np.sin(half_angle_rad)
+    rim = np.stack([np.full(_RIM, c), s * np.cos(around), s * np.sin(around)], axis=1)
+    return np.concatenate([[[1.0, 0.0, 0.0]], rim])
