@@ -1,15 +1,37 @@
-# Everything runs in .venv, which is made by the first target that needs it.
+# Everything runs in .venv, which the first target that needs it makes. No other tool is needed
+# than Python 3.11 and make.
 PYTHON ?= python3.11
 BIN := .venv/bin
+PIP := $(BIN)/pip install -q --disable-pip-version-check -c constraints.txt
+
+.PHONY: setup nqe test test-slow check bench
+
+setup: .venv/.dev
 
 .venv/.base: pyproject.toml constraints.txt
 	$(PYTHON) -m venv .venv
-	$(BIN)/pip install -q --disable-pip-version-check -c constraints.txt -e .
+	$(PIP) -e .
 	@touch $@
 
 .venv/.dev: .venv/.base
-	$(BIN)/pip install -q --disable-pip-version-check -c constraints.txt -e '.[dev]'
-	@touch $@ 
+	$(PIP) -e '.[dev]'
+	@touch $@
 
-.PHONY: setup
-setup: .venv/.dev
+nqe: .venv/.base
+	$(BIN)/ion drive nqe --seed 0 --out runs
+
+test: .venv/.dev
+	$(BIN)/pytest
+
+test-slow: .venv/.dev
+	$(BIN)/pytest -m slow
+
+check: .venv/.dev
+	$(BIN)/ruff check
+	$(BIN)/pyright
+	$(BIN)/lint-imports
+	$(BIN)/pytest
+
+# Twenty seeds of the NQE, two at a time: what a change to the navigator is measured by.
+bench: .venv/.base
+	$(BIN)/ion drive nqe --seeds 0-19 --jobs 2 --out runs/bench --json
