@@ -84,7 +84,8 @@ def _start(seed: int, first: Line) -> tuple[float, float, float]:
     rng = generator(seed, "start")
     left = rng.uniform(-START_ERROR_M, START_ERROR_M)
     turn = rng.uniform(-START_ERROR_RAD, START_ERROR_RAD)
-    return tuple(first.straight.pose(START_M).moved(0.0, float(left), float(turn)))
+    x, y, heading = first.straight.pose(START_M).moved(0.0, float(left), float(turn))
+    return x, y, heading
 
 
 def _build_things(seed: int, layout: Layout, lines: list[Line], ground: RollingGround) -> _Built:

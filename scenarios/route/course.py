@@ -6,7 +6,6 @@ import numpy as np
 
 from nav.route import rddf
 from scenarios.course import Course, Floats, route_points_m
-from scenarios.geometry import Pose
 from scenarios.route.roadside import obstacles
 from scenarios.things import generator
 from twin.terrain import Octave, RollingGround
@@ -49,7 +48,7 @@ def build(text: str, name: str, first: int | None, last: int | None, seed: int) 
         obstacles=obstacles(seed, ground, waypoint_m, route.half_width_m),
         friction=float(generator(seed, "friction").uniform(*FRICTION)),
         anchor=anchor,
-        start=tuple(_first_pose(waypoint_m)),
+        start=_start(waypoint_m),
         satellites=SKY,
     )
     return Course(
@@ -66,10 +65,10 @@ def build(text: str, name: str, first: int | None, last: int | None, seed: int) 
     )
 
 
-def _first_pose(waypoint_m: Floats) -> Pose:
-    x, y = (float(v) for v in waypoint_m[0])
+def _start(waypoint_m: Floats) -> tuple[float, float, float]:
+    """At the first waypoint, along the first segment."""
     east, north = waypoint_m[1] - waypoint_m[0]
-    return Pose(x, y, atan2(north, east))
+    return float(waypoint_m[0, 0]), float(waypoint_m[0, 1]), atan2(north, east)
 
 
 def _lines(text: str, first: int, last: int) -> str:

@@ -79,7 +79,8 @@ def _place(
     calm = min(along, float(corridor.length_m[k]) - along) > CALM_M
     inside = wants_in and calm and reach < width - 0.2
     near = reach + depth * (width - reach) if inside else width + 0.3 + 3.0 * depth
-    base = Pose(*(float(v) for v in corridor.start_m[k]), float(np.arctan2(cy, cx)))
+    x, y = (float(v) for v in corridor.start_m[k])
+    base = Pose(x, y, float(np.arctan2(cy, cx)))
     turn = float(rng.uniform(-pi, pi))
     pose = base.moved(along, side * (near + radius), turn)
     return pose, inside and _outside(corridor, pose, radius, but=k)
