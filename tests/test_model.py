@@ -58,7 +58,8 @@ def test_solver_is_the_measured_one(model):
     assert model.opt.timestep == 1 / 300
     assert model.opt.integrator == mujoco.mjtIntegrator.mjINT_IMPLICITFAST
     assert model.opt.solver == mujoco.mjtSolver.mjSOL_NEWTON
-    assert model.opt.cone == mujoco.mjtCone.mjCONE_PYRAMIDAL
+    assert model.opt.cone == mujoco.mjtCone.mjCONE_ELLIPTIC
+    assert model.opt.impratio == 0.2
     assert (model.opt.iterations, model.opt.tolerance) == (20, 1e-6)
 
 

@@ -111,10 +111,12 @@ def test_full_brake():
     assert abs(p.speed_mps) < 1e-3
 
 
-@pytest.mark.parametrize("steering_rad", [0.06, 0.288, -0.43])
-def test_turns_like_the_measured_vehicle(steering_rad):
+@pytest.mark.parametrize(
+    ("steering_rad", "speed_mps"), [(0.06, 3.0), (0.288, 3.0), (-0.43, 3.0), (0.5, 4.0)]
+)
+def test_turns_like_the_measured_vehicle(steering_rad, speed_mps):
     wanted = np.sign(steering_rad) * measured_curvature(abs(steering_rad))
-    assert cruise(plant(), 5.0, 3.0, steering_rad) == pytest.approx(wanted, rel=0.05)
+    assert cruise(plant(), 5.0, speed_mps, steering_rad) == pytest.approx(wanted, rel=0.05)
 
 
 def test_full_lock_circle():

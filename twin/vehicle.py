@@ -21,7 +21,7 @@ PIVOT_M = 2.29
 
 STEERING_LIMIT_RAD = 0.576
 LINKAGE_RATIO = 0.49
-LINKAGE_PROGRESSION_PER_RAD = 0.31
+LINKAGE_PROGRESSION_PER_RAD = 0.33
 """Estimated: chosen so that the twin turns as the measured vehicle did, see `linkage`."""
 
 
@@ -44,12 +44,12 @@ def ackermann(mean_rad: float) -> tuple[float, float]:
 TIRE_STIFFNESS_PER_S2 = 10_000.0
 TIRE_DAMPING_PER_S = 200.0
 """Contact of the tire in MuJoCo's direct form: 100 rad/s, damping ratio 1."""
-STICKING_RATIO = 0.01
-"""MuJoCo's regularization R / A = (1 - d) / d of a tire that stands: d = 0.99 holds on a slope."""
-STICKING_MPS = 0.0167
+STICKING_RATIO = 0.0025
+"""MuJoCo's regularization R / A = (1 - d) / d of a standing tire: it holds on a slope."""
+STICKING_MPS = 0.0156
 """Speed below which the tire sticks; above it R grows with speed, see `tire_contact`."""
-SOFTEST = 450.0
-"""R grows no further than this many times, at 7.5 m/s: softer tires are unstable at speed."""
+SOFTEST = 360.0
+"""R grows no further than this many times, at 5.6 m/s: softer tires are unstable at speed."""
 
 
 def tire_contact(speed_mps: float) -> tuple[tuple[float, float], tuple[float, float]]:
@@ -57,7 +57,8 @@ def tire_contact(speed_mps: float) -> tuple[tuple[float, float], tuple[float, fl
 
     MuJoCo's friction below its limit is viscous: force = b / R x slip speed. With R in proportion
     to the speed of travel that is a tire's law, force = stiffness x slip angle. With three axles it
-    matters: rigid friction makes the tandem scrub at its limit in any turn.
+    matters: rigid friction makes the tandem scrub at its limit in any turn. The model's `impratio`
+    of 0.2 gives friction five times the R of the normal force, so that the tire does not sink.
     """
     softness = min(max(1.0, speed_mps / STICKING_MPS), SOFTEST)
     d = 1.0 / (1.0 + STICKING_RATIO * softness)
