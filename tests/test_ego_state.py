@@ -11,7 +11,7 @@ import numpy as np
 import pytest
 
 import nav.parameters
-from nav.fusion.ego_kinematics import curvature, heading_rate, level, speed_of_wheels
+from nav.fusion.ego_kinematics import Attitude, curvature, heading_rate, level, speed_of_wheels
 from nav.fusion.ego_state import EgoState
 from nav.messages import CompassHeading, Gear, GpsFix, GpsQuality, ImuSample, VehicleState
 from nav.parameters.ego_state import EgoParameters
@@ -149,8 +149,6 @@ class Sensors:
 
 
 def _attitude(truth):
-    from nav.fusion.ego_kinematics import Attitude
-
     return Attitude(truth.roll, truth.pitch)
 
 
@@ -218,7 +216,7 @@ def test_without_errors_the_truth_comes_out():
 
 @pytest.mark.parametrize("seed", [1, 2, 3])
 def test_a_drive_with_straights_and_circles(seed):
-    log = run(Sensors(seed), 90)
+    log = run(Sensors(seed), 60)
     moving = log.second > 8
     assert log.second[0] < 1.5
     assert rms(log.cross_m[moving]) < 0.15
@@ -228,14 +226,14 @@ def test_a_drive_with_straights_and_circles(seed):
 
 def test_the_stated_deviations_are_honest():
     errors, stated = [], []
-    for seed in range(6):
-        log = run(Sensors(seed), 40)
+    for seed in range(4):
+        log = run(Sensors(seed), 25)
         errors += [log.ahead_m[-1], log.cross_m[-1]]
         stated.append(log.estimates[-1].position_sd_m)
     assert 0.4 < rms(np.array(errors)) / np.mean(stated) < 2.0
 
 
-@pytest.mark.parametrize("seed", [1, 2, 3, 4])
+@pytest.mark.parametrize("seed", [1, 2, 3])
 def test_a_tunnel_is_crossed_on_dead_reckoning(seed):
     """30 m at 2.2 m/s without fixes; afterwards single-point fixes do not pull the vehicle away."""
 

@@ -16,6 +16,9 @@ SIZE = 9
 MIN_WAY_RATE_MPS = 1e-3
 """A standing vehicle's position still forgets a little: the covariance stays regular."""
 
+COVARIANCE_S = 0.015
+"""The covariance follows at least this much later: 50 Hz are enough, and half the work."""
+
 Row = tuple[tuple[int, float], ...]
 """A row of the measurement matrix: (state, coefficient) of what is not zero."""
 
@@ -48,6 +51,11 @@ class Filter:
     state: Floats = field(default_factory=lambda: np.zeros(SIZE))
     covariance: Floats = field(default_factory=lambda: np.zeros((SIZE, SIZE)))
     refused_since_ns: dict[str, int] = field(default_factory=dict[str, int])
+    _behind_s: float = 0.0
+    """How far the covariance lags behind the state ..."""
+    _east_s: float = 0.0
+    _north_s: float = 0.0
+    """... and the way of that time for each m/s."""
     _transition: Floats = field(default_factory=lambda: np.eye(SIZE))
 
     def yaw_rate(self, drive: Drive) -> float:
@@ -59,18 +67,27 @@ class Filter:
         x, y, heading, v = self.state[:4].tolist()
         turn = self.yaw_rate(drive) * dt_s
         ahead = dt_s * drive.cos_pitch
-        way = v * ahead
-        c, s = math.cos(heading + 0.5 * turn), math.sin(heading + 0.5 * turn)
-        self.state[:3] = x + way * c, y + way * s, heading + turn
+        middle = heading + 0.5 * turn
+        c, s = ahead * math.cos(middle), ahead * math.sin(middle)
+        self.state[:3] = x + v * c, y + v * s, heading + turn
+        self._east_s += c
+        self._north_s += s
+        self._behind_s += dt_s
+        if self._behind_s >= COVARIANCE_S:
+            self._spread(v, drive)
+
+    def _spread(self, v: float, drive: Drive) -> None:
+        """Let the covariance catch up with the state."""
+        dt = self._behind_s
         F = self._transition
-        F[X, HEADING], F[Y, HEADING] = -way * s, way * c
-        F[X, SPEED], F[Y, SPEED] = ahead * c, ahead * s
-        F[HEADING, GYRO_BIAS] = -dt_s if drive.gyro else 0.0
-        F[GPS_X, GPS_X] = F[GPS_Y, GPS_Y] = fade = math.exp(-dt_s / self.parameters.gps.offset_s)
+        F[X, HEADING], F[Y, HEADING] = -v * self._north_s, v * self._east_s
+        F[X, SPEED], F[Y, SPEED] = self._east_s, self._north_s
+        F[HEADING, GYRO_BIAS] = -dt if drive.gyro else 0.0
+        F[GPS_X, GPS_X] = F[GPS_Y, GPS_Y] = fade = math.exp(-dt / self.parameters.gps.offset_s)
         self.state[GPS_X:] *= fade
-        P = F @ self.covariance @ F.T
-        P.ravel()[:: SIZE + 1] += self._noise(dt_s, abs(v), drive.yaw_q, fade)
-        self.covariance = P
+        self.covariance = F @ self.covariance @ F.T
+        self.covariance.ravel()[:: SIZE + 1] += self._noise(dt, abs(v), drive.yaw_q, fade)
+        self._behind_s = self._east_s = self._north_s = 0.0
 
     def _noise(self, dt_s: float, speed_mps: float, yaw_q: float, fade: float) -> Floats:
         """The diagonal of Q."""
@@ -122,7 +139,8 @@ class Filter:
     def _move(self, gain: Floats, innovation: float, variance: float) -> Floats:
         moved = gain * (innovation / variance)
         self.state += moved
-        self.covariance = self.covariance - gain[:, None] * gain * (1.0 / variance)
+        unit = gain * (1.0 / math.sqrt(variance))
+        self.covariance -= unit[:, None] * unit
         return moved
 
     def admit(self, source: str, time_ns: int, fits: bool) -> bool:
