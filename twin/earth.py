@@ -4,6 +4,7 @@ A point on the ground has ellipsoid height 0; its x and y are the east and north
 the anchor's tangent plane, its up component is dropped. Both directions are closed forms.
 """
 
+from functools import lru_cache
 from typing import NamedTuple
 
 import numpy as np
@@ -75,6 +76,7 @@ def _ecef(latitude: Floats, longitude: Floats) -> Floats:
     )
 
 
+@lru_cache(maxsize=8)
 def _frame(anchor: tuple[float, float]) -> _Frame:
     latitude, longitude = np.radians(anchor)
     s, c = np.sin(latitude), np.cos(latitude)

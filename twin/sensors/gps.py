@@ -1,5 +1,7 @@
 """GPS receiver: hidden by what stands between antenna and satellites, slow to converge again."""
 
+from math import exp, hypot, sqrt
+
 import numpy as np
 
 from nav.messages import GpsFix, GpsQuality
@@ -29,7 +31,7 @@ class Gps:
         self._to_satellite = _directions(world.satellites)
         self._spread = np.array([1.0, 1.0, p.vertical_factor])
         self._bias_m = p.bias_sd_m * self._rng.standard_normal(3)
-        self._belief = float(np.exp(p.sd_scale_sd * self._rng.standard_normal()))
+        self._belief = exp(p.sd_scale_sd * self._rng.standard_normal())
         self._outage_m, self._outage_sd_m = np.zeros(3), 0.0
         self._wait_s = 0.0
         self._fixes = 0
@@ -43,12 +45,12 @@ class Gps:
             self._look_up(position)
         self._fixes += 1
         self._age()
-        noise, velocity_noise, belief_noise = np.split(self._rng.standard_normal(7), [3, 6])
+        noise = self._rng.standard_normal(7)
         locked = self._lock()
         if locked:
-            velocity = view.site_velocity(self.name)[0] + self._p.velocity_sd_mps * velocity_noise
-            sd_m = self._sd_m() * (1.0 + 0.1 * self._p.sd_scale_sd * belief_noise[0])
-            self._last = (*self._solve(position, noise), float(sd_m), velocity)
+            velocity = view.site_velocity(self.name)[0] + self._p.velocity_sd_mps * noise[3:6]
+            sd_m = self._sd_m() * (1.0 + 0.1 * self._p.sd_scale_sd * float(noise[6]))
+            self._last = (*self._solve(position, noise[:3]), sd_m, velocity)
         return GpsFix(time_ns, self._quality(locked), self._satellites, *self._last)
 
     def _look_up(self, position: Floats) -> None:
@@ -61,10 +63,10 @@ class Gps:
     def _age(self) -> None:
         """Let the bias wander and the offset of the last outage fade."""
         p, interval_s = self._p, 1.0 / self._p.rate_hz
-        keep = np.exp(-interval_s / p.bias_time_s)
-        fresh = p.bias_sd_m * np.sqrt(1.0 - keep * keep)
+        keep = exp(-interval_s / p.bias_time_s)
+        fresh = p.bias_sd_m * sqrt(1.0 - keep * keep)
         self._bias_m = keep * self._bias_m + fresh * self._rng.standard_normal(3)
-        fade = float(np.exp(-interval_s / p.outage_time_s))
+        fade = exp(-interval_s / p.outage_time_s)
         self._outage_m, self._outage_sd_m = fade * self._outage_m, fade * self._outage_sd_m
 
     def _lock(self) -> bool:
@@ -86,9 +88,7 @@ class Gps:
         return float(latitude), float(longitude), float(up)
 
     def _sd_m(self) -> float:
-        p = self._p
-        parts = np.array([p.bias_sd_m, p.noise_sd_m, self._outage_sd_m])
-        return self._belief * float(np.linalg.norm(parts))
+        return self._belief * hypot(self._p.bias_sd_m, self._p.noise_sd_m, self._outage_sd_m)
 
     def _quality(self, locked: bool) -> GpsQuality:
         if not locked:

@@ -1,5 +1,7 @@
 """Vertical gyro: angular rates, specific force, and roll and pitch against a slow vertical."""
 
+from math import atan2, hypot
+
 import numpy as np
 
 from nav.messages import ImuSample
@@ -44,5 +46,5 @@ class Imu:
 
 def tilt_of(up: Floats) -> Floats:
     """Roll (left side up) and pitch (nose down) [rad], shape (2,), from "up" in vehicle axes."""
-    x, y, z = up
-    return np.array([np.arctan2(y, z), np.arctan2(-x, np.hypot(y, z))])
+    x, y, z = up.tolist()
+    return np.array([atan2(y, z), atan2(-x, hypot(y, z))])

@@ -1,6 +1,7 @@
 """SICK LMS 221: ranges of 361 beams in one plane, in counts of a centimetre."""
 
 import numpy as np
+from numba import njit
 from numpy.typing import NDArray
 
 from nav.messages import LIDAR_COUNT_M, LIDAR_NO_RETURN_COUNT, LidarScan, lidar_range_m
@@ -26,15 +27,22 @@ class Lidar:
     def measure(self, view: View, time_ns: int) -> LidarScan:
         """The scan of this instant."""
         position, rotation = self._mounting.pose(view, self.name)
-        true_m = cast(self._scene, position, self._fan, self._p.max_range_m, rotation)
+        limit = self._p.max_range_m
+        true_m = cast(self._scene, position, self._fan, limit, rotation)
         noise_m = self._bias_m + self._p.noise_sd_m * self._rng.standard_normal(self._p.beams)
-        return LidarScan(time_ns, self.name, lidar_range_m(self._counts(true_m, noise_m)))
+        return LidarScan(time_ns, self.name, lidar_range_m(_counts(true_m, noise_m, limit)))
 
-    def _counts(self, true_m: Floats, noise_m: Floats) -> NDArray[np.uint16]:
-        last = LIDAR_NO_RETURN_COUNT - 1
-        counts = np.clip(np.rint((true_m + noise_m) / LIDAR_COUNT_M), 0, last)
-        counts[true_m >= self._p.max_range_m] = LIDAR_NO_RETURN_COUNT
-        return counts.astype(np.uint16)
+
+@njit(cache=True)
+def _counts(true_m: Floats, noise_m: Floats, max_range_m: float) -> NDArray[np.uint16]:
+    """What the scanner says of ranges (n,); compiled, since numpy's six passes cost five times."""
+    counts = np.empty(true_m.size, np.uint16)
+    for i in range(true_m.size):
+        count = np.rint((true_m[i] + noise_m[i]) / LIDAR_COUNT_M)
+        counts[i] = min(max(count, 0), LIDAR_NO_RETURN_COUNT - 1)
+        if true_m[i] >= max_range_m:
+            counts[i] = LIDAR_NO_RETURN_COUNT
+    return counts
 
 
 def _fan(p: LidarParameters) -> Floats:

@@ -41,13 +41,14 @@ class Sonar:
         position, rotation = self._mountings[unit].pose(view, f"sonar_{unit}")
         limit = self._p.max_range_m
         range_m, what = cast_hits(self._scene, position, self._cone, limit, rotation)
-        for i in np.flatnonzero(what == GROUND):
-            direction = rotation @ self._cone[i]
-            if not self._echoes(position + range_m[i] * direction, direction):
+        for i in range(len(what)):
+            if what[i] == GROUND and not self._ground_echoes(position, rotation, i, range_m[i]):
                 range_m[i] = limit
         return float(range_m.min())
 
-    def _echoes(self, point: Floats, direction: Floats) -> bool:
+    def _ground_echoes(self, position: Floats, rotation: Floats, ray: int, range_m: float) -> bool:
+        direction = rotation @ self._cone[ray]
+        point = position + range_m * direction
         normal = self._scene.ground_normal(point[0], point[1])
         return bool(-direction @ normal >= np.sin(self._p.ground_echo_rad))
 
