@@ -9,11 +9,14 @@ from numpy.typing import NDArray
 from nav.fusion.obstacle_map import ObstacleMap
 from nav.messages import Decision, DirectCommand, EgoEstimate, Floats, FollowPath
 from nav.parameters import Parameters
+from nav.planning.angles import wrapped
 from nav.planning.boundaries import boundaries
 from nav.planning.corridor_grid import corridor_distance
-from nav.planning.local_path import clear_distances, route_ahead
+from nav.planning.curve import Curve
+from nav.planning.local_path import clear_distances, join_length, route_ahead
 from nav.planning.scanning import Boundaries
 from nav.planning.speed_profile import speed_profile
+from nav.planning.steering_circle import curvature_rate
 from nav.route.smooth_path import Projection, SmoothPath, project, smooth_path
 from nav.route.waypoints import Waypoints
 from nav.states.machine import Machine
@@ -30,6 +33,7 @@ class Senses:
     """What the fusion modules say at this moment."""
 
     ego: EgoEstimate
+    curvature_per_m: float
     gps_lost_s: float
     sonar_m: dict[str, float]
 
@@ -60,9 +64,7 @@ class HighLevelController:
     def _situation(self, time_ns: int, senses: Senses, obstacles: ObstacleMap) -> Situation:
         p, ego, here = self.parameters.planning, senses.ego, self.here
         boundaries = self._boundaries(obstacles)
-        ahead = route_ahead(
-            self.route, here.index, here.cross_track_m, ego.heading_rad, p.local_path
-        )
+        ahead = self._route_ahead(ego)
         real, safe = clear_distances(ahead, boundaries, p.footprint)
         return Situation(
             time_ns=time_ns,
@@ -75,9 +77,17 @@ class HighLevelController:
             V0_mps=float(self.V0[here.index]),
             cross_track_m=here.cross_track_m,
             waypoint=int(self.route.segment[here.index]) + 1,
+            curvature_per_m=senses.curvature_per_m,
             gps_lost_s=senses.gps_lost_s,
             sonar_m=senses.sonar_m,
         )
+
+    def _route_ahead(self, ego: EgoEstimate) -> Curve:
+        here, rate = self.here, curvature_rate(self.parameters.vehicle.steering)
+        local = self.parameters.planning.local_path
+        turned = wrapped(ego.heading_rad - float(self.route.heading_rad[here.index]))
+        join_m = join_length(here.cross_track_m, ego.speed_mps, rate, local)
+        return route_ahead(self.route, here.index, here.cross_track_m, turned, join_m)
 
     def _goal(self, ego: EgoEstimate) -> float:
         """phi(k): towards a point of the smooth path some seconds ahead."""
@@ -108,9 +118,7 @@ class HighLevelController:
         key = (obstacles.origin_m, first, last)
         if self._corridor is None or self._corridor[0] != key:
             w = self.waypoints
-            drawn = corridor_distance(
-                obstacles.lattice, w.position_m, w.half_width_m, first, last
-            )
+            drawn = corridor_distance(obstacles.lattice, w.position_m, w.half_width_m, first, last)
             self._corridor = (key, drawn)
         return self._corridor[1]
 

@@ -75,7 +75,12 @@ class IonNavigator:
         self._sense(time_ns, ego)
         if not self._warm(time_ns):
             return (ego,)
-        senses = Senses(ego, self.ego.gps_lost_s(time_ns), self._sonar_ranges(time_ns))
+        senses = Senses(
+            ego,
+            self.low_level.curvature_per_m,
+            self.ego.gps_lost_s(time_ns),
+            self._sonar_ranges(time_ns),
+        )
         command, decision = self.high_level.decide(time_ns, senses, self.obstacles)
         self.low_level.command_is(command)
         cells = (self._cells(time_ns),) if self.calls % CELLS_EVERY == 0 else ()
@@ -100,7 +105,8 @@ class IonNavigator:
     def _sonar_ranges(self, time_ns: int) -> dict[str, float]:
         if self._sonar is None or time_ns - self._sonar.time_ns > STALE_NS:
             return {}
-        return dict(zip(self.parameters.vehicle.sonar_mounts, self._sonar.range_m.tolist()))
+        names = self.parameters.vehicle.sonar_mounts
+        return dict(zip(names, self._sonar.range_m.tolist(), strict=True))
 
     def _cells(self, time_ns: int) -> ObstacleCells:
         cells = self.obstacles.occupied()

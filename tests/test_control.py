@@ -1,16 +1,16 @@
 """The low-level controller: limits, braking, path following on a kinematic vehicle."""
 
-from math import cos, pi, sin, tan
+from math import cos, pi, sin
 
 import numpy as np
 import pytest
 
 from nav.control.limits import limited
 from nav.control.low_level import LowLevelController
-from nav.control.path_following import steering_angle
 from nav.control.speed import SpeedController
 from nav.messages import EgoEstimate, FollowPath, Gear, VehicleState
 from nav.parameters import parameters_from
+from nav.planning.steering_circle import curvature, steering_angle
 from scenarios.parameter_files import parameter_texts
 
 P = parameters_from(parameter_texts())
@@ -21,8 +21,8 @@ def ego(x=0.0, y=0.0, heading=0.0, speed=3.0, yaw_rate=0.0, time_ns=0) -> EgoEst
     return EgoEstimate(time_ns, [x, y], heading, speed, yaw_rate, 0.0, 0.0, 0.1, 0.01)
 
 
-def vehicle(time_ns=0, gear=Gear.HIGH, shifting=False) -> VehicleState:
-    return VehicleState(time_ns, [0.0] * 6, 0.0, 0.0, 0.0, gear, shifting)
+def vehicle(time_ns=0, gear=Gear.HIGH, shifting=False, steering=0.0) -> VehicleState:
+    return VehicleState(time_ns, [0.0] * 6, steering, 0.0, 0.0, gear, shifting)
 
 
 def test_limits_saturate_and_the_brake_wins():
@@ -37,6 +37,8 @@ def test_steering_follows_the_measured_circle_and_is_odd():
     assert steering_angle(1 / 5.8, s) == pytest.approx(s.limit_rad, rel=0.01)
     assert steering_angle(-0.1, s) == -steering_angle(0.1, s)
     assert steering_angle(9.0, s) == steering_angle(1 / s.minimum_radius_m, s)
+    for k in (0.0, 0.01, -0.05, 0.1, -0.17):
+        assert curvature(steering_angle(k, s), s) == pytest.approx(k, abs=1e-9)
 
 
 def test_no_fresh_command_stops_the_vehicle():
@@ -72,16 +74,19 @@ def test_speed_controller_brakes_above_and_drives_below():
 def test_offset_decays_on_a_straight_line(side):
     control = LowLevelController(P.control, P.vehicle.steering)
     x, y, heading, delta, speed = 0.0, side * 1.0, 0.0, 0.0, 3.0
+    late = [0.0] * 15
     offsets = []
     for k in range(600):
         x0 = x - 1.0
         points = np.column_stack([np.linspace(x0, x0 + 12.0, 10), np.zeros(10)])
         now = k * TICK_NS
-        yaw_rate = speed * tan(delta) / 1.7
+        yaw_rate = speed * curvature(delta, P.vehicle.steering)
         control.command_is(FollowPath(now, points, speed))
-        target = control.step(now, ego(x, y, heading, speed, yaw_rate, now), vehicle(now))
+        here = ego(x, y, heading, speed, yaw_rate, now)
+        target = control.step(now, here, vehicle(now, steering=delta))
+        late.append(target.steering_rad)
         rate = P.vehicle.steering.rate_radps * 0.02
-        delta += min(max(target.steering_rad - delta, -rate), rate)
+        delta += min(max(late.pop(0) - delta, -rate), rate)
         heading += yaw_rate * 0.02
         x, y = x + speed * 0.02 * cos(heading), y + speed * 0.02 * sin(heading)
         offsets.append(y * side)

@@ -7,10 +7,11 @@ from nav.fusion.lattice import Lattice
 from nav.parameters.loader import from_toml
 from nav.parameters.planning import PlanningParameters
 from nav.planning.corridor_grid import corridor_distance
-from nav.planning.scanning import REAL, SAFE, Boundaries, fan, free_distance, scan
+from nav.planning.scanning import REAL, SAFE, Boundaries, Turning, fan, free_distance, scan
 from scenarios.parameter_files import parameter_texts
 
 P = from_toml(PlanningParameters, parameter_texts()["planning.toml"], "planning.toml")
+SLOW = Turning(curvature_per_m=0.0, delay_m=0.5, rate_per_m2=0.04, limit_per_m=0.15)
 LATTICE = Lattice(0.2, 320, -160, -160)
 
 
@@ -25,39 +26,43 @@ def boundaries(*blocks: tuple[float, float, float, float, int]) -> Boundaries:
 
 
 def test_free_ground_is_free_in_all_directions():
-    curves = fan(P.scanning, P.footprint, 6.5)
+    curves = fan(P.scanning, P.footprint, SLOW)
     real, safe = scan(curves, boundaries(), 0.0, 0.0, 0.3)
     assert (real == P.scanning.max_distance_m).all()
     assert (safe == P.scanning.max_distance_m).all()
 
 
 def test_wall_ahead_is_met_by_the_front_of_the_vehicle():
-    curves = fan(P.scanning, P.footprint, 6.5)
+    curves = fan(P.scanning, P.footprint, SLOW)
     real, _ = scan(curves, boundaries((15.0, 16.0, -30.0, 30.0, REAL)), 0.0, 0.0, 0.0)
     ahead = real[len(real) // 2]
     assert ahead == pytest.approx(15.0 - max(P.footprint.disc_x_m), abs=P.scanning.step_m)
 
 
 def test_safe_boundary_does_not_block_the_real_distance():
-    curves = fan(P.scanning, P.footprint, 6.5)
+    curves = fan(P.scanning, P.footprint, SLOW)
     real, safe = scan(curves, boundaries((10.0, 12.0, -30.0, 30.0, SAFE)), 0.0, 0.0, 0.0)
     assert (real == P.scanning.max_distance_m).all()
     assert safe[len(safe) // 2] < 10.0
 
 
 def test_mirrored_world_gives_mirrored_distances():
-    curves = fan(P.scanning, P.footprint, 6.5)
+    curves = fan(P.scanning, P.footprint, SLOW)
     left, _ = scan(curves, boundaries((8.0, 12.0, 0.6, 4.0, REAL)), 0.0, 0.0, 0.0)
     right, _ = scan(curves, boundaries((8.0, 12.0, -4.0, -0.6, REAL)), 0.0, 0.0, 0.0)
     np.testing.assert_array_equal(left, right[::-1])
     assert (left != right).any()
 
 
-def test_curves_turn_no_tighter_than_their_radius():
-    curves = fan(P.scanning, P.footprint, 9.0)
-    turned = np.abs(np.diff(curves.heading_rad, axis=1))
-    assert turned.max() <= P.scanning.step_m / 9.0 + 1e-12
-    np.testing.assert_allclose(curves.heading_rad[:, -1], curves.theta_rad, atol=1e-9)
+@pytest.mark.parametrize("curvature", [0.0, 0.08, -0.12])
+def test_curves_start_as_the_vehicle_turns_and_end_in_their_direction(curvature):
+    turning = Turning(curvature, delay_m=1.0, rate_per_m2=0.04, limit_per_m=0.12)
+    curves = fan(P.scanning, P.footprint, turning)
+    bend = np.diff(curves.heading_rad, axis=1) / P.scanning.step_m
+    assert np.abs(bend).max() <= max(0.12, abs(curvature)) + 1e-9
+    assert np.abs(np.diff(bend, axis=1)).max() <= 0.04 * P.scanning.step_m + 1e-9
+    np.testing.assert_allclose(bend[:, 0], curvature, atol=1e-9)
+    np.testing.assert_allclose(curves.heading_rad[:, -1], curves.theta_rad, atol=0.02)
 
 
 def test_vehicle_inside_a_boundary_may_leave_it_but_not_cross_a_wall():

@@ -34,7 +34,7 @@ def situation(
     real, safe = clear_distances(route, boundaries, P.planning.footprint)
     ego = EgoEstimate(int(t * 1e9), [0, 0], 0.0, 3.0, 0.0, 0.0, 0.0, 0.1, 0.01)
     return Situation(
-        ego.time_ns, ego, boundaries, route, real, safe, 0.0, 5.0, 0.0, 1, gps_lost_s, sonar
+        ego.time_ns, ego, boundaries, route, real, safe, 0.0, 5.0, 0.0, 1, 0.0, gps_lost_s, sonar
     )
 
 

@@ -3,12 +3,8 @@
 from dataclasses import dataclass, field
 
 from nav.control.limits import limited
-from nav.control.path_following import (
-    curvature_command,
-    path_error,
-    predicted,
-    steering_angle,
-)
+from nav.control.path_following import curvature_command, path_error
+from nav.control.prediction import Prediction, Predictor
 from nav.control.speed import SpeedController
 from nav.messages import (
     ActuatorTargets,
@@ -21,6 +17,7 @@ from nav.messages import (
 from nav.parameters.control import ControlParameters
 from nav.parameters.vehicle import Steering
 from nav.planning.curve import Curve, curve_through
+from nav.planning.steering_circle import steering_angle
 
 TICK_S = 0.02
 
@@ -32,12 +29,16 @@ class LowLevelController:
     parameters: ControlParameters
     steering: Steering
     speed: SpeedController = field(init=False)
+    predictor: Predictor = field(init=False)
+    curvature_per_m: float = 0.0
+    """Of the vehicle's way when a steering target of now takes effect."""
     command: FollowPath | DirectCommand | None = None
     curve: Curve | None = None
     commanded_ns: int = 0
 
     def __post_init__(self) -> None:
         self.speed = SpeedController(self.parameters.speed)
+        self.predictor = Predictor(self.steering, TICK_S)
 
     def command_is(self, command: FollowPath | DirectCommand) -> None:
         """Put a command of the high-level controller into force."""
@@ -53,11 +54,26 @@ class LowLevelController:
         self, time_ns: int, ego: EgoEstimate | None, vehicle: VehicleState | None
     ) -> ActuatorTargets:
         """Targets for the next 20 ms."""
-        if ego is None or vehicle is None or not self._drives(time_ns):
-            return self._stop(time_ns, 0.0 if ego is None else ego.speed_mps, vehicle)
+        if ego is None or vehicle is None:
+            targets = self._stop(time_ns, 0.0, vehicle)
+        else:
+            then = self.predictor.predict(ego, vehicle.steering_rad)
+            self.curvature_per_m = then.curvature_per_m
+            drives = self._drives(time_ns)
+            targets = (
+                self._follow(time_ns, ego, vehicle, then)
+                if drives
+                else self._stop(time_ns, ego.speed_mps, vehicle)
+            )
+        self.predictor.sent(targets.steering_rad)
+        return targets
+
+    def _follow(
+        self, time_ns: int, ego: EgoEstimate, vehicle: VehicleState, then: Prediction
+    ) -> ActuatorTargets:
         assert isinstance(self.command, FollowPath)
         assert self.curve is not None
-        error = path_error(self.curve, *predicted(ego, self.parameters.path.delay_s))
+        error = path_error(self.curve, then.x_m, then.y_m, then.heading_rad)
         curvature = curvature_command(error, ego.speed_mps, self.parameters.path)
         ready = vehicle.gear == Gear.HIGH and not vehicle.shifting
         set_point = self.command.speed_mps if ready else 0.0

@@ -5,9 +5,8 @@ from math import atan2, cos, hypot, sin
 
 import numpy as np
 
-from nav.messages import EgoEstimate, Floats
+from nav.messages import Floats
 from nav.parameters.control import PathFollowing
-from nav.parameters.vehicle import Steering
 from nav.planning.curve import Curve
 
 
@@ -20,15 +19,6 @@ class PathError:
     """Left of the curve is positive."""
     heading_rad: float
     curvature_per_m: float
-
-
-def predicted(ego: EgoEstimate, delay_s: float) -> tuple[float, float, float]:
-    """x, y, heading after `delay_s` at the present speed and yaw rate."""
-    turn = ego.yaw_rate_radps * delay_s
-    middle = ego.heading_rad + 0.5 * turn
-    way = ego.speed_mps * delay_s
-    x, y = ego.position_m
-    return x + way * cos(middle), y + way * sin(middle), ego.heading_rad + turn
 
 
 def path_error(curve: Curve, x_m: float, y_m: float, heading_rad: float) -> PathError:
@@ -51,10 +41,3 @@ def curvature_command(error: PathError, speed_mps: float, p: PathFollowing) -> f
     approach = -error.offset_m / (2.0 * p.damping * length)
     approach = min(max(approach, -p.heading_limit_rad), p.heading_limit_rad)
     return error.curvature_per_m + 2.0 * p.damping / length * (approach - error.heading_rad)
-
-
-def steering_angle(curvature_per_m: float, steering: Steering) -> float:
-    """Road-wheel angle for a curvature, after the measured turning circle (facts.md)."""
-    k = min(abs(curvature_per_m), 1.0 / steering.minimum_radius_m)
-    angle = steering.limit_rad * (steering.linear_m * k + steering.quadratic_m2 * k * k)
-    return angle if curvature_per_m >= 0.0 else -angle

@@ -7,8 +7,6 @@ from dataclasses import dataclass
 class PathFollowing:
     """Feedback on the pose that the vehicle will have when steering answers."""
 
-    delay_s: float
-    """Steering answers this late."""
     length_m: float
     """An offset decays over this length ..."""
     length_s: float

@@ -28,8 +28,12 @@ class Scanning:
     max_distance_m: float
     """d_max."""
     step_m: float
-    turn_radius_m: tuple[float, ...]
-    """Radii of the turns towards a direction; the tightest that the speed allows is used."""
+    lateral_mps2: float
+    """A turn towards a direction keeps below this."""
+    radius_margin: float
+    """Its radius is this much larger than the smallest that the vehicle can turn."""
+    slowest_mps: float
+    """Steering is taken to wind up at least at this speed: near standstill it has all the time."""
 
 
 @dataclass(frozen=True)
@@ -39,8 +43,10 @@ class LocalPathParameters:
     horizon_s: float
     min_length_m: float
     max_length_m: float
-    join_radius_m: float
-    """A lateral offset is taken back on a curve no tighter than this."""
+    join_stretch: float
+    """A lateral offset is taken back over this much more than the shortest way that the
+    steering's rate allows."""
+    join_min_m: float
     join_offset_m: float
     """Below this offset the path is the smooth path itself."""
     goal_s: float

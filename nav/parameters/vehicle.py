@@ -19,6 +19,8 @@ class Steering:
 
     limit_rad: float
     rate_radps: float
+    delay_s: float
+    """Targets take effect this late."""
     linear_m: float
     quadratic_m2: float
     minimum_radius_m: float

@@ -1,12 +1,11 @@
 """The local path of ten pathpoints (section 6.4): along the route, or in a decided direction."""
 
-from math import cos, sin, sqrt
+from math import cbrt, cos, sin
 
 import numpy as np
 
 from nav.messages import Floats
 from nav.parameters.planning import Footprint, LocalPathParameters
-from nav.planning.angles import wrapped
 from nav.planning.curve import Curve, resampled, sampled
 from nav.planning.scanning import REAL, SAFE, Boundaries, Fan, discs, free_distance
 from nav.route.smooth_path import SmoothPath
@@ -29,28 +28,45 @@ def pathpoints(curve: Curve, length_m: float) -> Floats:
 
 
 def route_ahead(
-    route: SmoothPath, index: int, offset_m: float, heading_rad: float, p: LocalPathParameters
+    route: SmoothPath, index: int, offset_m: float, turned_rad: float, join_m: float
 ) -> Curve:
     """The smooth path from sample `index` on, joined from the vehicle's offset and heading.
 
-    The offset is taken back on a cubic whose length keeps it no tighter than `join_radius_m`.
+    Args:
+        route: the smooth path of the whole route.
+        index: the sample beside the vehicle.
+        offset_m: how far left of the path the vehicle is; taken back on a cubic ...
+        turned_rad: ... that starts this far left of the path's heading ...
+        join_m: ... and takes this way; 0 where the vehicle is on the path.
     """
     first = min(index, len(route.arc_m) - 2)
     end = int(np.searchsorted(route.arc_m, route.arc_m[first] + AHEAD_M)) + 1
     part = slice(first, max(end, first + 2))
     position, heading = route.position_m[part], route.heading_rad[part]
-    if abs(offset_m) > p.join_offset_m:
-        turned = wrapped(heading_rad - float(heading[0]))
-        e = _join(route.arc_m[part] - route.arc_m[first], offset_m, turned, p)
+    if join_m > 0.0:
+        e = _join(route.arc_m[part] - route.arc_m[first], offset_m, turned_rad, join_m)
         left: Floats = np.stack([-np.sin(heading), np.cos(heading)], axis=1)
         position = position + e[:, None] * left
     return sampled(position)
 
 
-def _join(arc_m: Floats, offset_m: float, turned_rad: float, p: LocalPathParameters) -> Floats:
-    length = max(6.0, sqrt(6.0 * abs(offset_m) * p.join_radius_m))
-    slope = min(max(turned_rad, -0.5), 0.5) * length
-    u = np.minimum(arc_m / length, 1.0)
+def join_length(
+    offset_m: float, speed_mps: float, rate_per_m_s: float, p: LocalPathParameters
+) -> float:
+    """Way over which a lateral offset is taken back, [m].
+
+    Steering left, right and left again at a curvature rate j for a time T moves a vehicle by
+    v^2 j T^3 / 32 sideways.
+    """
+    if abs(offset_m) < p.join_offset_m:
+        return 0.0
+    shortest = cbrt(32.0 * abs(offset_m) * max(speed_mps, 1.0) / rate_per_m_s)
+    return max(p.join_stretch * shortest, p.join_min_m)
+
+
+def _join(arc_m: Floats, offset_m: float, turned_rad: float, join_m: float) -> Floats:
+    slope = min(max(turned_rad, -0.5), 0.5) * join_m
+    u = np.minimum(arc_m / join_m, 1.0)
     return offset_m * (1 - 3 * u**2 + 2 * u**3) + slope * (u - 2 * u**2 + u**3)
 
 

@@ -1,9 +1,9 @@
 """Scanning distances to the real and the safe boundary (Fig. 6.6), over feasible curves.
 
-A direction is scanned along the curve that the vehicle would drive: a turn of the given radius
-until it heads there, then straight on. Straight rays from a mass point would promise directions
-that six metres of turning radius cannot keep. The whole outline is moved along the curve, as
-discs on the vehicle's axis.
+A direction is scanned along the curve that the vehicle would drive: steering answers late, winds
+up no faster than it can, unwinds, and then goes straight on. Straight rays from a mass point would
+promise directions that six metres of turning radius and two seconds to the lock cannot keep. The
+whole outline is moved along the curve, as discs on the vehicle's axis.
 """
 
 from dataclasses import dataclass
@@ -39,6 +39,20 @@ class Boundaries:
         return np.where(outside, 0, self.level.ravel()[flat]).astype(np.uint8)
 
 
+@dataclass(frozen=True)
+class Turning:
+    """How the vehicle can turn from here on, per metre of way."""
+
+    curvature_per_m: float
+    """Present curvature, left positive."""
+    delay_m: float
+    """Way before steering answers."""
+    rate_per_m2: float
+    """Change of curvature per metre."""
+    limit_per_m: float
+    """Largest curvature: of the steering, and of the lateral acceleration at this speed."""
+
+
 @dataclass(frozen=True, eq=False)
 class Fan:
     """Curves into all directions from a vehicle at the origin that heads along x."""
@@ -55,19 +69,38 @@ class Fan:
     """Shape (n, m, discs, 2), centres of the footprint's discs."""
 
 
-def fan(scanning: Scanning, footprint: Footprint, radius_m: float) -> Fan:
-    """Curves that turn with `radius_m`, then go straight."""
-    half = scanning.half_angle_rad
-    theta = np.linspace(-half, half, scanning.directions)
+def fan(scanning: Scanning, footprint: Footprint, turning: Turning) -> Fan:
+    """Curves that wind the steering up, hold it, and unwind it so that they end in a direction."""
+    theta = np.linspace(-scanning.half_angle_rad, scanning.half_angle_rad, scanning.directions)
     arc = np.arange(0.0, scanning.max_distance_m + 1e-9, scanning.step_m)
-    turned = np.minimum(np.abs(theta)[:, None], arc[None, :] / radius_m)
-    straight = arc[None, :] - turned * radius_m
-    forward = radius_m * np.sin(turned) + straight * np.cos(turned)
-    sideward = radius_m * (1.0 - np.cos(turned)) + straight * np.sin(turned)
-    sign = np.sign(theta)[:, None]
-    position = np.stack([forward, sign * sideward], axis=-1)
-    heading = sign * turned
+    bend = _bend(theta, arc, turning)
+    heading = np.zeros_like(bend)
+    np.cumsum(0.5 * (bend[:, 1:] + bend[:, :-1]) * scanning.step_m, axis=1, out=heading[:, 1:])
+    middle = 0.5 * (heading[:, 1:] + heading[:, :-1])
+    position = np.zeros((*bend.shape, 2))
+    np.cumsum(scanning.step_m * np.cos(middle), axis=1, out=position[:, 1:, 0])
+    np.cumsum(scanning.step_m * np.sin(middle), axis=1, out=position[:, 1:, 1])
     return Fan(theta, arc, position, heading, discs(position, heading, footprint))
+
+
+def _bend(theta: Floats, arc: Floats, t: Turning) -> Floats:
+    """Curvature (n, m) along each curve: now, up to a peak, held, back to zero.
+
+    The area under it is theta. With k0 now, peak p and slope r, winding up and back turns by
+    (2 p^2 - k0^2) / 2r; what the largest peak leaves is turned while it is held.
+    """
+    r, k = t.rate_per_m2, t.curvature_per_m
+    left = theta - k * t.delay_m
+    sign = np.where(left >= k * abs(k) / (2.0 * r), 1.0, -1.0)
+    k0, turn = sign * k, sign * left
+    peak = np.sqrt(np.maximum(r * turn + 0.5 * k0**2, 0.0))
+    peak = np.maximum(np.minimum(peak, np.maximum(t.limit_per_m, k0)), np.maximum(k0, 0.0))
+    rest = np.maximum(turn - (2.0 * peak**2 - k0**2) / (2.0 * r), 0.0)
+    held = (peak - k0) / r + rest / np.maximum(peak, 1e-9)
+    way = (arc - t.delay_m)[None, :]
+    rising = np.minimum(k0[:, None] + r * np.maximum(way, 0.0), peak[:, None])
+    falling = np.maximum(peak[:, None] - r * (way - held[:, None]), 0.0)
+    return sign[:, None] * np.where(way <= held[:, None], rising, falling)
 
 
 def discs(position_m: Floats, heading_rad: Floats, footprint: Footprint) -> Floats:

@@ -4,17 +4,15 @@ D1, the distance in front of the vehicle, is measured along the local path in fo
 edges are boundaries, so straight ahead would mean a stop before every sharp turn.
 """
 
-from functools import lru_cache
-
 import numpy as np
 
 from nav.parameters import Parameters
-from nav.parameters.planning import PlanningParameters
 from nav.planning.angles import wrapped
 from nav.planning.local_path import path_length, pathpoints, towards
-from nav.planning.scanning import Fan, fan, scan
+from nav.planning.scanning import Turning, fan, scan
 from nav.planning.speed import set_point
 from nav.planning.steering import decide
+from nav.planning.steering_circle import curvature_rate
 from nav.states.memory import Memory
 from nav.states.replanning import blocked_in, due
 from nav.states.situation import Plan, Situation
@@ -26,7 +24,7 @@ def plan(s: Situation, memory: Memory, p: Parameters) -> Plan:
     """Scan all directions, decide, and lead ten pathpoints there."""
     ego = s.ego
     x, y = (float(v) for v in ego.position_m)
-    curves = _fan(p.planning, ego.speed_mps)
+    curves = fan(p.planning.scanning, p.planning.footprint, _turning(s, p))
     real, safe = scan(curves, s.boundaries, x, y, ego.heading_rad)
     reason = due(s, memory, p)
     theta = curves.theta_rad + ego.heading_rad
@@ -56,13 +54,15 @@ def plan(s: Situation, memory: Memory, p: Parameters) -> Plan:
     return Plan(memory.pathpoint_m, speed, D1, D, decision.theta_D, decision.selected, reason)
 
 
-def _fan(p: PlanningParameters, speed_mps: float) -> Fan:
-    """The tightest turn that the speed allows."""
-    tightest = speed_mps**2 / p.speed.lateral_mps2
-    radii = p.scanning.turn_radius_m
-    return _fans(p)[next((i for i, r in enumerate(radii) if r >= tightest), len(radii) - 1)]
-
-
-@lru_cache(maxsize=8)
-def _fans(p: PlanningParameters) -> tuple[Fan, ...]:
-    return tuple(fan(p.scanning, p.footprint, r) for r in p.scanning.turn_radius_m)
+def _turning(s: Situation, p: Parameters) -> Turning:
+    steering, scanning = p.vehicle.steering, p.planning.scanning
+    speed = max(s.ego.speed_mps, scanning.slowest_mps)
+    return Turning(
+        curvature_per_m=s.curvature_per_m,
+        delay_m=steering.delay_s * max(s.ego.speed_mps, 0.0),
+        rate_per_m2=curvature_rate(steering) / speed,
+        limit_per_m=min(
+            1.0 / (scanning.radius_margin * steering.minimum_radius_m),
+            scanning.lateral_mps2 / speed**2,
+        ),
+    )

@@ -26,6 +26,8 @@ class Situation:
     cross_track_m: float
     waypoint: int
     """Index of the waypoint ahead."""
+    curvature_per_m: float
+    """Of the vehicle's way when steering targets of now take effect, left positive."""
     gps_lost_s: float
     sonar_m: dict[str, float]
     """Newest sonar ranges by name; empty where there is none."""
