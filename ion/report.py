@@ -83,6 +83,8 @@ def table(result: Result) -> Table:
     """What one drive came to, for people."""
     title = f"{result['scenario']}, seed {result['seed']}"
     grid = Table(title=title, show_header=False, title_justify="left")
+    grid.add_column()
+    grid.add_column(overflow="fold")
     for name, text in _rows(result):
         grid.add_row(name, text)
     return grid

@@ -9,6 +9,7 @@ from nav.route.corridor import depth
 from nav.route.waypoints import Waypoints
 
 Floats = NDArray[np.float64]
+Point = tuple[float, float]
 
 SEGMENTS_EACH_WAY = 2
 """The corridor here and now is that of the segments n-2 to n+2 (design: departure)."""
@@ -19,7 +20,7 @@ MERGE_NS = 1_000_000_000
 @dataclass
 class Progress:
     """Counts waypoints: one is passed when the reference point crosses the line that halves its
-    corner, the first when the drive begins."""
+    corner; the first when the drive begins; the last, the finish, by the vehicle's nose."""
 
     waypoint_m: Floats
     """Shape (n, 2), world frame."""
@@ -32,9 +33,13 @@ class Progress:
         self._along = (np.vstack([unit, unit[-1:]]) + np.vstack([unit[:1], unit])).tolist()
         self._waypoints: list[list[float]] = self.waypoint_m.tolist()
 
-    def observe(self, x: float, y: float) -> None:
-        """Take the reference point's position, [m]."""
-        while not self.finished and self._beyond(self.segment + 1, x, y):
+    def observe(self, reference_m: Point, nose_m: Point) -> None:
+        """Take the positions of the reference point and of the middle of the bumper."""
+        finish = len(self._waypoints) - 1
+        while not self.finished:
+            x, y = nose_m if self.segment + 1 == finish else reference_m
+            if not self._beyond(self.segment + 1, x, y):
+                break
             self.segment += 1
 
     def _beyond(self, waypoint: int, x: float, y: float) -> bool:

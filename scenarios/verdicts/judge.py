@@ -90,7 +90,7 @@ class Judge:
         x, y = truth.position_m[:2].tolist()
         self.pose = pose = (x, y, truth.heading_rad)
         self.movement.observe(truth)
-        self.progress.observe(x, y)
+        self.progress.observe((x, y), self.outline.nose_m(pose))
         self.departures.observe(truth.time_ns, self.progress.segment, truth.tire_center_m[:, :2])
         self.gates.observe(pose)
         self.contacts.observe(truth.time_ns, truth.contacts)

@@ -27,6 +27,11 @@ class Outline(NamedTuple):
     rear_m: float = -0.95
     half_width_m: float = 0.762
 
+    def nose_m(self, pose: Pose) -> tuple[float, float]:
+        """The middle of the bumper in the world."""
+        x, y, heading = pose
+        return x + self.front_m * math.cos(heading), y + self.front_m * math.sin(heading)
+
     def corners_m(self, pose: Pose) -> list[tuple[float, float]]:
         """The four corners in the world, in order around the outline."""
         x, y, heading = pose
