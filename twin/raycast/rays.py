@@ -52,9 +52,9 @@ def _cast(
     inv_x, inv_y = _inverse(dx), _inverse(dy)
     t, end = _inside((px, py), (inv_x, inv_y), (ground.z.shape[0] - 1) / ground.block_cells)
     t, end = max(t, 0.0), min(end, max_range)
-    best, what = max_range, NO_HIT
+    best, what = end, NO_HIT
     if t >= end:
-        return best, what
+        return max_range, what
     column, step_x, next_x, delta_x = _axis(px, dx, inv_x, t, count)
     row, step_y, next_y, delta_y = _axis(py, dy, inv_y, t, count)
     while 0 <= column < count and 0 <= row < count:
@@ -71,14 +71,14 @@ def _cast(
             hit = _meet_ground(ground, origin, direction, first, last)
             if hit < best:
                 best, what = hit, GROUND
-        if best <= leave or leave >= end:
+        if best <= leave:
             break
         t = leave
         if next_x < next_y:
             column, next_x = column + step_x, next_x + delta_x
         else:
             row, next_y = row + step_y, next_y + delta_y
-    return best, what
+    return best if what != NO_HIT else max_range, what
 
 
 @_compiled
