@@ -5,12 +5,13 @@ slope-based filter of Vosselman (2000, "Slope based filtering of laser altimetry
 
 - Steep beams (the roof scanner's) that end near the bound teach a cell its height. Shallow beams
   never teach: their line across a rise looks just like a wall. They are only judged.
-- In a known cell the bound is the lowest of the cell and its neighbours, plus `slope` for the way:
-  a step within a metre is an obstacle, a bank steeper than about 0.25 too, however well known.
+- In and beside known cells the bound is the lowest of a cell and its neighbours, plus `slope` for
+  the way: a step within a metre is an obstacle, a bank steeper than about 0.25 too, however well known.
 - Elsewhere the known ground is continued along its trend ahead (a plane through the reference
   point, which takes in the attitude's bias) and may bend up by `curvature_pm` / 2 * distance^2.
 - Farther than `reach_m` from known ground the same holds from the vehicle itself, which says
   little: a rise cannot be told from a wall before the steep beams have swept its foot.
+- Behind the vehicle only what is known is judged: the trend there is another.
 - What was taken for ground in doubt (a wall before the first start) stays within `doubt_m` of the
   continued ground and so becomes an obstacle on approach.
 
@@ -98,8 +99,10 @@ class GroundProfile:
 
     def _renewed_bound(self, pose: Pose, ahead: Floats) -> Floats:
         far = self._far_bound(pose, ahead)
-        near = np.minimum(self._near_bound(), far + self.parameters.doubt_m)
-        return np.where(self.height_m < UNKNOWN_M, near, far)
+        near = self._near_bound()
+        return np.where(
+            near < 0.5 * UNKNOWN_M, np.minimum(near, far + self.parameters.doubt_m), far
+        )
 
     def _near_bound(self) -> Floats:
         rise = self.parameters.slope * self.parameters.cell_m
@@ -107,8 +110,7 @@ class GroundProfile:
 
     def _far_bound(self, pose: Pose, ahead: Floats) -> Floats:
         """The trend, bent up away from known ground: a parabola's erosion, which is separable."""
-        pooled = np.minimum(self.height_m[::2], self.height_m[1::2])
-        pooled = np.minimum(pooled[:, ::2], pooled[:, 1::2])
+        pooled = _pooled(self.height_m)
         cell_m = 2 * self.parameters.cell_m
         centre = (np.arange(len(pooled), dtype=np.float64) + 0.5) * cell_m
         east = centre + (self.lattice.origin_m[0] - pose.x_m)
@@ -120,6 +122,7 @@ class GroundProfile:
         bound = _eroded(pooled - trend, bend * steps**2)
         guess = self.vehicle_m + bend * (east**2 + north[:, None] ** 2)
         bound = np.where(bound < 0.5 * UNKNOWN_M, bound, guess) + trend
+        bound[east * ahead[0] + north[:, None] * ahead[1] < -cell_m] = UNKNOWN_M
         return bound.repeat(2, axis=0).repeat(2, axis=1)
 
     def _trend(
@@ -177,6 +180,18 @@ class GroundProfile:
         old = cells[taught]
         gain = np.where(old < UNKNOWN_M, self.parameters.gain, 1.0)
         cells[taught] = old + gain * (mean - old)
+
+
+def _pooled(height: Floats) -> Floats:
+    """Mean of the known cells in each block of two by two, UNKNOWN_M where there are none."""
+    known = (height < UNKNOWN_M).astype(np.float64)
+    count, total = _blocks(known), _blocks(known * height)
+    return np.where(count > 0, total / np.maximum(count, 1.0), UNKNOWN_M)
+
+
+def _blocks(cells: Floats) -> Floats:
+    rows = cells[::2] + cells[1::2]
+    return rows[:, ::2] + rows[:, 1::2]
 
 
 def _eroded(height: Floats, rise: Floats) -> Floats:
