@@ -22,26 +22,22 @@ class Imu:
         self.schedule = schedule(p)
         self._p = p
         self._rng = generator(seed, self.name)
-        self._gyro_bias = p.gyro_bias_sd_radps * self._rng.standard_normal(3)
-        self._accelerometer_bias = p.accelerometer_bias_sd_mps2 * self._rng.standard_normal(3)
-        self._tilt_bias = p.tilt_bias_max_rad * self._rng.uniform(-1.0, 1.0, 2)
+        sd = np.repeat([p.gyro_bias_sd_radps, p.accelerometer_bias_sd_mps2], 3)
+        tilt_bias = p.tilt_bias_max_rad * self._rng.uniform(-1.0, 1.0, 2)
+        self._bias = np.concatenate([sd * self._rng.standard_normal(6), tilt_bias])
+        noises = (p.gyro_noise_radps, p.accelerometer_noise_mps2, p.tilt_noise_rad)
+        self._noise = np.repeat(noises, (3, 3, 2))
         self._tilt_error = np.zeros(2)
 
     def measure(self, view: View, time_ns: int) -> ImuSample:
         """The sample of this instant."""
-        p, noise = self._p, self._rng.standard_normal(8)
         rate, force = view.imu()
         tilt = tilt_of(view.site_pose(self.name)[1][2])
-        step = 1.0 / (p.rate_hz * p.erection_time_s)
+        step = 1.0 / (self._p.rate_hz * self._p.erection_time_s)
         self._tilt_error = self._tilt_error + step * (tilt_of(force) - tilt - self._tilt_error)
-        roll, pitch = tilt + self._tilt_bias + self._tilt_error + p.tilt_noise_rad * noise[6:]
-        return ImuSample(
-            time_ns,
-            rate + self._gyro_bias + p.gyro_noise_radps * noise[:3],
-            force + self._accelerometer_bias + p.accelerometer_noise_mps2 * noise[3:6],
-            float(roll),
-            float(pitch),
-        )
+        said = np.concatenate([rate, force, tilt + self._tilt_error])
+        said += self._bias + self._noise * self._rng.standard_normal(8)
+        return ImuSample(time_ns, said[:3], said[3:6], float(said[6]), float(said[7]))
 
 
 def tilt_of(up: Floats) -> Floats:
