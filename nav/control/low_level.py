@@ -75,10 +75,13 @@ class LowLevelController:
         assert self.curve is not None
         error = path_error(self.curve, then.x_m, then.y_m, then.heading_rad)
         curvature = curvature_command(error, ego.speed_mps, self.parameters.path)
+        steering = steering_angle(curvature, self.steering)
         ready = vehicle.gear == Gear.HIGH and not vehicle.shifting
         set_point = self.command.speed_mps if ready else 0.0
+        if abs(steering - vehicle.steering_rad) > self.parameters.steering_lag_rad:
+            set_point = min(set_point, self.parameters.steering_lag_mps)
         throttle, brake = self.speed.step(set_point, ego.speed_mps, TICK_S)
-        return self._limited(time_ns, steering_angle(curvature, self.steering), throttle, brake)
+        return self._limited(time_ns, steering, throttle, brake)
 
     def _drives(self, time_ns: int) -> bool:
         fresh = time_ns - self.commanded_ns <= self.parameters.command_timeout_s * 1e9

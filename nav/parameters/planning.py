@@ -49,6 +49,8 @@ class LocalPathParameters:
     join_min_m: float
     join_offset_m: float
     """Below this offset the path is the smooth path itself."""
+    turn_rad: float
+    """In Obstacle Avoidance a decision this far off the local path's end makes a new one."""
     goal_s: float
     """The goal point lies this far ahead on the smooth path, in seconds ..."""
     goal_min_m: float
@@ -64,6 +66,8 @@ class SpeedProfileParameters:
     cap_mps: float
     limit_factor: float
     """Share of the speed limit that is aimed at, so that control errors stay below it."""
+    avoid_mps: float
+    """While an obstacle is on the smooth path: slow enough to swerve."""
     narrow_mps: float
     """Where the path runs inside a safe boundary."""
 

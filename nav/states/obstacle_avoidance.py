@@ -41,6 +41,7 @@ def plan(s: Situation, memory: Memory, p: Parameters) -> Plan:
     )
     row = int(np.argmin(np.abs(theta - decision.theta_D)))
     memory.decision_rad = decision.theta_D
+    reason = reason or _turned(memory, theta[row], p)
     if reason or memory.pathpoint_m is None:
         length = min(path_length(ego.speed_mps, p.planning.local_path), float(real[row]))
         path = towards(curves, row, x, y, ego.heading_rad)
@@ -49,9 +50,18 @@ def plan(s: Situation, memory: Memory, p: Parameters) -> Plan:
     D = float(real[row])
     blocked = blocked_in(s, memory, p)
     D1 = D if blocked is None else blocked
+    limit = min(s.V0_mps, p.planning.speed.avoid_mps)
     turn = abs(wrapped(decision.theta_D - ego.heading_rad))
-    speed = set_point(D1, D, turn, s.V0_mps, decision.selected, p.speed).speed_mps
+    speed = set_point(D1, D, turn, limit, decision.selected, p.speed).speed_mps
     return Plan(memory.pathpoint_m, speed, D1, D, decision.theta_D, decision.selected, reason)
+
+
+def _turned(memory: Memory, decision_rad: float, p: Parameters) -> str:
+    """Beyond Fig. 6.4: a path that no longer leads where the decision points is stale."""
+    if memory.curve is None:
+        return ""
+    off = abs(wrapped(decision_rad - float(memory.curve.heading_rad[-1])))
+    return "direction changed" if off > p.planning.local_path.turn_rad else ""
 
 
 def _turning(s: Situation, p: Parameters) -> Turning:
