@@ -10,7 +10,7 @@ from nav.fusion.obstacle_map import ObstacleMap
 from nav.messages import Decision, DirectCommand, EgoEstimate, Floats, FollowPath
 from nav.parameters import Parameters
 from nav.planning.angles import wrapped
-from nav.planning.boundaries import boundaries
+from nav.planning.boundaries import Layer, boundaries
 from nav.planning.corridor_grid import corridor_distance
 from nav.planning.curve import Curve
 from nav.planning.local_path import clear_distances, join_length, route_ahead
@@ -100,13 +100,13 @@ class HighLevelController:
     def _boundaries(self, obstacles: ObstacleMap) -> Boundaries:
         foot = self.parameters.planning.footprint
         depth = self._corridor_depth(obstacles)
-        level = boundaries(
-            obstacles.occupied().index,
-            obstacles.lattice.count,
-            obstacles.cell_m,
-            (foot.real_radius_m, foot.safe_radius_m),
-            (depth < foot.corridor_real_m, depth < foot.corridor_safe_m),
+        layers = (
+            Layer(foot.safe_radius_m, depth < foot.corridor_safe_m),
+            Layer(foot.real_radius_m, depth < foot.corridor_real_m),
+            Layer(foot.touch_radius_m, depth < foot.corridor_touch_m),
         )
+        occupied = obstacles.occupied().index
+        level = boundaries(occupied, obstacles.lattice.count, obstacles.cell_m, layers)
         return Boundaries(level, obstacles.origin_m, obstacles.cell_m)
 
     def _corridor_depth(self, obstacles: ObstacleMap) -> NDArray[np.float32]:

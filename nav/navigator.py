@@ -1,6 +1,7 @@
 """ION's navigator: wiring only. The same code drives the twin and the truck."""
 
 from collections.abc import Sequence
+from math import atan2
 
 from nav.admission import Admission
 from nav.control.low_level import LowLevelController
@@ -36,9 +37,12 @@ class IonNavigator:
         frame = route_frame(route)
         self.parameters = parameters
         self.admission = Admission(STALE_NS)
-        self.ego = EgoState(parameters.ego_state, parameters.vehicle, frame)
+        waypoints = waypoints_of(route, frame)
+        x, y = waypoints.position_m[1] - waypoints.position_m[0]
+        along_route = atan2(float(y), float(x))  # the crew parks so; of use without a compass
+        self.ego = EgoState(parameters.ego_state, parameters.vehicle, frame, along_route)
         self.obstacles = ObstacleMap(parameters.obstacle_map, parameters.vehicle)
-        self.high_level = HighLevelController(parameters, waypoints_of(route, frame))
+        self.high_level = HighLevelController(parameters, waypoints)
         self.low_level = LowLevelController(parameters.control, parameters.vehicle.steering)
         self.calls = 0
         self._scans: list[LidarScan] = []

@@ -6,8 +6,9 @@ import pytest
 from nav.fusion.lattice import Lattice
 from nav.parameters.loader import from_toml
 from nav.parameters.planning import PlanningParameters
+from nav.planning.boundaries import REAL, SAFE, TOUCH
 from nav.planning.corridor_grid import corridor_distance
-from nav.planning.scanning import REAL, SAFE, Boundaries, Turning, fan, free_distance, scan
+from nav.planning.scanning import Boundaries, Turning, fan, free_distance, scan
 from scenarios.parameter_files import parameter_texts
 
 P = from_toml(PlanningParameters, parameter_texts()["planning.toml"], "planning.toml")
@@ -70,9 +71,9 @@ def test_vehicle_inside_a_boundary_may_leave_it_but_not_cross_a_wall():
     leaving = np.zeros((1, 20), np.uint8)
     leaving[0, :2] = REAL
     assert free_distance(leaving, arc, REAL)[0] == arc[-1]
-    wall = np.zeros((1, 20), np.uint8)
-    wall[0, :8] = REAL
-    assert free_distance(wall, arc, REAL)[0] < 1.5
+    for boundary, reach_m in ((REAL, 4.0), (TOUCH, 0.5)):
+        wall = np.full((1, 20), boundary, np.uint8)
+        assert free_distance(wall, arc, REAL)[0] == reach_m
 
 
 def test_corridor_depth_is_half_width_less_distance():

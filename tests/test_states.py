@@ -7,9 +7,10 @@ import pytest
 
 from nav.messages import EgoEstimate
 from nav.parameters import parameters_from
+from nav.planning.boundaries import REAL
 from nav.planning.curve import sampled
 from nav.planning.local_path import clear_distances
-from nav.planning.scanning import REAL, Boundaries
+from nav.planning.scanning import Boundaries
 from nav.states import machine
 from nav.states.machine import Machine
 from nav.states.situation import Situation

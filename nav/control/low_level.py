@@ -3,7 +3,7 @@
 from dataclasses import dataclass, field
 
 from nav.control.limits import limited
-from nav.control.path_following import curvature_command, path_error
+from nav.control.path_following import bend_ahead, curvature_command, path_error
 from nav.control.prediction import Prediction, Predictor
 from nav.control.speed import SpeedController
 from nav.messages import (
@@ -74,7 +74,9 @@ class LowLevelController:
         assert isinstance(self.command, FollowPath)
         assert self.curve is not None
         error = path_error(self.curve, then.x_m, then.y_m, then.heading_rad)
-        curvature = curvature_command(error, ego.speed_mps, self.parameters.path)
+        path = self.parameters.path
+        bend = bend_ahead(self.curve, error.arc_m, path.preview_s * ego.speed_mps)
+        curvature = curvature_command(error, bend, ego.speed_mps, path)
         steering = steering_angle(curvature, self.steering)
         ready = vehicle.gear == Gear.HIGH and not vehicle.shifting
         set_point = self.command.speed_mps if ready else 0.0

@@ -35,9 +35,24 @@ def path_error(curve: Curve, x_m: float, y_m: float, heading_rad: float) -> Path
     )
 
 
-def curvature_command(error: PathError, speed_mps: float, p: PathFollowing) -> float:
-    """Curvature [1/m] that takes offset and heading error back, damped over a length."""
+def bend_ahead(curve: Curve, arc_m: float, way_m: float) -> float:
+    """Mean curvature of the curve from `arc_m` over the next `way_m`, [1/m]."""
+    ends = np.interp((arc_m, arc_m + max(way_m, 0.2)), curve.arc_m, curve.heading_rad)
+    return float(ends[1] - ends[0]) / max(way_m, 0.2)
+
+
+def curvature_command(
+    error: PathError, bend_per_m: float, speed_mps: float, p: PathFollowing
+) -> float:
+    """Curvature [1/m] that takes offset and heading error back, damped over a length.
+
+    Args:
+        error: where the vehicle is relative to the curve.
+        bend_per_m: curvature of the path itself, ahead.
+        speed_mps: forward.
+        p: gains.
+    """
     length = hypot(p.length_m, p.length_s * max(speed_mps, 0.0))
     approach = -error.offset_m / (2.0 * p.damping * length)
     approach = min(max(approach, -p.heading_limit_rad), p.heading_limit_rad)
-    return error.curvature_per_m + 2.0 * p.damping / length * (approach - error.heading_rad)
+    return bend_per_m + 2.0 * p.damping / length * (approach - error.heading_rad)

@@ -12,6 +12,8 @@ class PathFollowing:
     length_s: float
     """... or this time at higher speed."""
     damping: float
+    preview_s: float
+    """The path's curvature is averaged over this time ahead: steering winds up slowly."""
     heading_limit_rad: float
     """Offset never asks for a larger approach angle than this."""
 

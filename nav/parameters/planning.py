@@ -9,12 +9,16 @@ class Footprint:
 
     disc_x_m: tuple[float, ...]
     """Centres, vehicle frame."""
+    touch_radius_m: float
+    """Covers the outline and nothing more."""
     real_radius_m: float
-    """Half the vehicle (section 6.4.2.1): covers the outline, plus half a cell."""
+    """Half the vehicle (section 6.4.2.1), plus a cell of the map."""
     safe_radius_m: float
     """The further enlargement."""
+    corridor_touch_m: float
+    """A disc's centre this far inside the corridor's edge keeps the tires inside ..."""
     corridor_real_m: float
-    """A disc's centre stays this far inside the corridor's edge."""
+    """... and this far is aimed at."""
     corridor_safe_m: float
 
 

@@ -8,15 +8,18 @@ widening is a shift of words and stacking an "or" of rows: its cost does not dep
 of obstacles, and from 300 on it is cheaper than painting a disc around each.
 """
 
+from collections.abc import Sequence
 from functools import lru_cache
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
 from nav.errors import NavError
 
-FREE, SAFE, REAL = 0, 1, 2
-"""Outside both boundaries, inside the safe one, inside the real one."""
+FREE, SAFE, REAL, TOUCH = 0, 1, 2, 3
+"""Outside all boundaries, inside the safe one, inside the real one, and where the outline itself
+would touch: beyond the paper, so that a vehicle that strays into the real boundary may leave it."""
 
 Cells = NDArray[np.uint8]
 Bools = NDArray[np.bool_]
@@ -24,12 +27,17 @@ _Words = NDArray[np.uint64]
 _WORD = 64
 
 
+class Layer(NamedTuple):
+    """One boundary."""
+
+    radius_m: float
+    """Obstacles are expanded by this."""
+    outside: Bools | None = None
+    """Shape (count, count): cells outside the corridor as it is shrunk for this boundary."""
+
+
 def boundaries(
-    occupied: NDArray[np.int64],
-    count: int,
-    cell_m: float,
-    radius_m: tuple[float, float],
-    outside: tuple[Bools | None, Bools | None] = (None, None),
+    occupied: NDArray[np.int64], count: int, cell_m: float, layers: Sequence[Layer]
 ) -> Cells:
     """Expand obstacles and corridor edges.
 
@@ -37,28 +45,26 @@ def boundaries(
         occupied: flat indices of occupied cells, shape (n,), as from `ObstacleMap.occupied`.
         count: cells a side.
         cell_m: edge of a cell, [m].
-        radius_m: of the real and of the safe boundary, [m].
-        outside: cells outside the corridor as it is shrunk for the real and for the safe boundary,
-            shape (count, count) each, or None.
+        layers: from the outermost boundary, SAFE, inwards.
 
     Raises:
         NavError: a radius that is negative or larger than 63 cells.
 
     Returns:
-        Shape (count, count): FREE, SAFE or REAL. A cell is inside a boundary when its centre is
-        not farther than the radius from the centre of an occupied cell.
+        Shape (count, count): how many boundaries a cell is inside of. It is inside one when its
+        centre is not farther than the radius from the centre of an occupied cell.
     """
-    real_width, safe_width = (_half_widths(radius / cell_m) for radius in radius_m)
-    pad = max(len(real_width), len(safe_width))
+    widths = [_half_widths(layer.radius_m / cell_m) for layer in layers]
+    pad = max(len(width) for width in widths)
     words = _packed(occupied, count, pad)
-    real = _unpacked(_dilated(words, real_width), count, pad)
-    safe = _unpacked(_dilated(words, safe_width), count, pad)
-    if outside[0] is not None:
-        real |= outside[0].view(np.uint8)
-    if outside[1] is not None:
-        safe |= outside[1].view(np.uint8)
-    safe |= real
-    return real + safe
+    level = np.zeros((count, count), np.uint8)
+    inner = np.zeros((count, count), np.uint8)
+    for width, layer in zip(reversed(widths), reversed(layers), strict=True):
+        inner |= _unpacked(_dilated(words, width), count, pad)
+        if layer.outside is not None:
+            inner |= layer.outside.view(np.uint8)
+        level += inner
+    return level
 
 
 @lru_cache(maxsize=32)

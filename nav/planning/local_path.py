@@ -6,8 +6,9 @@ import numpy as np
 
 from nav.messages import Floats
 from nav.parameters.planning import Footprint, LocalPathParameters
+from nav.planning.boundaries import REAL, SAFE
 from nav.planning.curve import Curve, resampled, sampled
-from nav.planning.scanning import REAL, SAFE, Boundaries, Fan, discs, free_distance
+from nav.planning.scanning import Boundaries, Fan, discs, free_distance
 from nav.route.smooth_path import SmoothPath
 
 PATHPOINTS = 10

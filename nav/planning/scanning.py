@@ -13,16 +13,17 @@ from numpy.typing import NDArray
 
 from nav.messages import Floats
 from nav.parameters.planning import Footprint, Scanning
+from nav.planning.boundaries import REAL, SAFE, TOUCH
 
-REAL, SAFE = 2, 1
-"""Levels of the boundary grid: inside the real boundary, inside the safe boundary."""
-ESCAPE_M = {REAL: 0.8, SAFE: 4.0}
-"""Where the vehicle already stands inside a boundary, it may take this far to leave it."""
+ESCAPE_M = 4.0
+"""A vehicle that stands inside a boundary may take this far to leave it ..."""
+ESCAPE_TOUCH_M = 0.5
+"""... and this far where the outline itself seems to touch, for the map is not exact."""
 
 
 @dataclass(frozen=True, eq=False)
 class Boundaries:
-    """The expanded obstacles on the map's lattice: level[iy, ix] of 0, SAFE or REAL."""
+    """The expanded obstacles on the map's lattice: level[iy, ix] of FREE, SAFE, REAL or TOUCH."""
 
     level: NDArray[np.uint8]
     origin_m: tuple[float, float]
@@ -122,7 +123,10 @@ def scan(
 def free_distance(level: NDArray[np.uint8], arc_m: Floats, boundary: int) -> Floats:
     """Distance to the first sample at or above `boundary`, shape (n,) for levels (n, m)."""
     blocked = level >= boundary
-    leaving = np.logical_and.accumulate(blocked, axis=-1) & (arc_m < ESCAPE_M[boundary])
+    if not blocked.any():
+        return np.full(level.shape[0], arc_m[-1])
+    reach = np.where(level >= TOUCH, ESCAPE_TOUCH_M, ESCAPE_M)
+    leaving = np.logical_and.accumulate(blocked & (arc_m < reach), axis=-1)
     blocked &= ~leaving
     first = blocked.argmax(axis=-1)
     return np.where(blocked.any(axis=-1), arc_m[first], arc_m[-1])

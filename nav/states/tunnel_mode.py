@@ -8,9 +8,10 @@ from nav.messages import Floats
 from nav.parameters import Parameters
 from nav.parameters.states import TunnelParameters
 from nav.planning.angles import wrapped
+from nav.planning.boundaries import REAL
 from nav.planning.curve import Curve, sampled
 from nav.planning.local_path import path_length, pathpoints
-from nav.planning.scanning import REAL, discs, free_distance
+from nav.planning.scanning import discs, free_distance
 from nav.planning.speed import set_point
 from nav.states.memory import Memory
 from nav.states.situation import Plan, Situation
