@@ -11,7 +11,7 @@ import pytest
 
 from nav.errors import NavError
 from nav.fusion.obstacle_map import ObstacleMap
-from nav.fusion.scan_geometry import Pose, beams, scan_geometry
+from nav.fusion.scan_geometry import Pose, placed, scan_geometry
 from nav.messages import LidarScan
 from nav.parameters.loader import from_toml
 from nav.parameters.obstacle_map import ObstacleMapParameters
@@ -58,12 +58,13 @@ def ground_range(origin: np.ndarray, direction: np.ndarray, ground: Ground) -> n
 
 def scan(name: str, pose: Pose, boxes: list[Box], ground: Ground = flat, time_s: float = 0.0):
     """What scanner `name` measures from the true pose, in whole centimetres."""
-    fan = beams(GEOMETRY[name], pose)
-    origin = fan.origin_m + np.array([0.0, 0.0, ground(np.array(pose.x_m))])
-    range_m = ground_range(origin, fan.direction, ground)
+    scanner = placed(GEOMETRY[name], pose)
+    direction = (scanner.turn @ GEOMETRY[name].direction).T
+    origin = scanner.origin_m + np.array([0.0, 0.0, ground(np.array(pose.x_m))])
+    range_m = ground_range(origin, direction, ground)
     for box in boxes:
         foot = float(ground(np.array(box[0])))
-        range_m = np.minimum(range_m, box_range(origin, fan.direction, box, foot))
+        range_m = np.minimum(range_m, box_range(origin, direction, box, foot))
     range_m = np.where(range_m < 81.0, np.rint(range_m * 100) * 0.01, 81.92)
     return LidarScan(round(time_s * 1e9), name, range_m)
 

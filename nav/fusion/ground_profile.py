@@ -6,7 +6,7 @@ slope-based filter of Vosselman (2000, "Slope based filtering of laser altimetry
 - Steep beams (the roof scanner's) that end near the bound teach a cell its height. Shallow beams
   never teach: their line across a rise looks just like a wall. They are only judged.
 - In and beside known cells the bound is the lowest of a cell and its neighbours, plus `slope` for
-  the way: a step within a metre is an obstacle, a bank steeper than about 0.25 too, however well known.
+  the way: a step within a metre is an obstacle, and so is a bank steeper than about 0.25.
 - Elsewhere the known ground is continued along its trend ahead (a plane through the reference
   point, which takes in the attitude's bias) and may bend up by `curvature_pm` / 2 * distance^2.
 - Farther than `reach_m` from known ground the same holds from the vehicle itself, which says
@@ -32,6 +32,8 @@ from nav.parameters.obstacle_map import GroundParameters
 
 UNKNOWN_M = 1e6
 """Height of a cell of which nothing is known; finite, so that sums stay numbers."""
+_DUE_EACH_M = 0.1
+"""The bound is renewed after a cell of way; a tick counts as this much, for what was learned."""
 _PRIOR_M2 = 50.0
 """Weight of the vehicle's own plane in the trend, as one cell seen at 7 m."""
 
@@ -54,7 +56,10 @@ class GroundProfile:
         self.vehicle_m = 0.0
         """Height of the reference point above the datum."""
         self._bound = self._unknown()
+        self._due = parameters.cell_m  # way since the bound was renewed
         self._pose: Pose | None = None
+        self._ahead = (1.0, 0.0)
+        self._plane = (0.0, 0.0)
 
     def _unknown(self) -> Floats:
         return np.full((self.lattice.count, self.lattice.count), UNKNOWN_M)
@@ -63,42 +68,43 @@ class GroundProfile:
         """Move the lattice so that (x_m, y_m) lies in its middle."""
         to = self.lattice.centred(x_m, y_m)
         self.height_m = self.lattice.moved(self.height_m, to, UNKNOWN_M)
+        self._bound = self.lattice.moved(self._bound, to, UNKNOWN_M)
         self.lattice = to
 
     def drive(self, pose: Pose) -> None:
-        """Follow the vehicle to `pose`, then renew the bound from all that is known."""
+        """Follow the vehicle to `pose`; renew the bound when that is worth it."""
+        c, s = cos(pose.heading_rad), sin(pose.heading_rad)
         last = self._pose or pose
-        ahead = np.array([cos(pose.heading_rad), sin(pose.heading_rad)])
-        way = (pose.x_m - last.x_m) * ahead[0] + (pose.y_m - last.y_m) * ahead[1]
+        way = (pose.x_m - last.x_m) * c + (pose.y_m - last.y_m) * s
         self.vehicle_m -= way * tan(pose.pitch_rad)
-        self._stand(pose, ahead)
+        fore, left = -tan(pose.pitch_rad), tan(pose.roll_rad)
+        self._plane = (fore * c - left * s, fore * s + left * c)
+        self._ahead = (c, s)
         self._pose = pose
-        self._bound = self._renewed_bound(pose, ahead)
+        self._stand(pose)
+        self._due += abs(way) + _DUE_EACH_M
+        if self._due >= self.parameters.cell_m:
+            self._bound = self._renewed_bound(pose)
+            self._due = 0.0
 
-    def _stand(self, pose: Pose, ahead: Floats) -> None:
+    def _stand(self, pose: Pose) -> None:
         """What is under the wheels is ground; where it is known, it draws the vehicle to it."""
-        left = np.array([-ahead[1], ahead[0]])
-        place = self._wheel_m[:, :1] * ahead + self._wheel_m[:, 1:] * left
-        index, inside = self.lattice.index(pose.x_m + place[:, 0], pose.y_m + place[:, 1])
-        plane = self._plane(pose, ahead) @ place.T
+        c, s = self._ahead
+        x, y = self._wheel_m[:, 0], self._wheel_m[:, 1]
+        east, north = c * x - s * y, s * x + c * y
+        index, _ = self.lattice.index(pose.x_m + east, pose.y_m + north)
+        plane = self._plane[0] * east + self._plane[1] * north
         cells = self.height_m.ravel()
-        index, plane = index[inside], plane[inside]
         known = cells[index] < UNKNOWN_M
         if known.any():
             offset = float(np.mean((cells[index] - plane)[known])) - self.vehicle_m
             self.vehicle_m += 0.2 * min(max(offset, -0.2), 0.2)
-        cells[index[~known]] = self.vehicle_m + plane[~known]
-
-    @staticmethod
-    def _plane(pose: Pose, ahead: Floats) -> Floats:
-        """Slope of the vehicle's own plane eastwards and northwards, shape (2,)."""
-        left = np.array([-ahead[1], ahead[0]])
-        return -tan(pose.pitch_rad) * ahead + tan(pose.roll_rad) * left
+        cells[index] = np.where(known, cells[index], self.vehicle_m + plane)
 
     # ------------------------------------------------------------------ bound
 
-    def _renewed_bound(self, pose: Pose, ahead: Floats) -> Floats:
-        far = self._far_bound(pose, ahead)
+    def _renewed_bound(self, pose: Pose) -> Floats:
+        far = self._far_bound(pose)
         near = self._near_bound()
         return np.where(
             near < 0.5 * UNKNOWN_M, np.minimum(near, far + self.parameters.doubt_m), far
@@ -106,35 +112,41 @@ class GroundProfile:
 
     def _near_bound(self) -> Floats:
         rise = self.parameters.slope * self.parameters.cell_m
-        return _eroded(self.height_m, np.array([rise]))
+        return _eroded(self.height_m, (rise,))
 
-    def _far_bound(self, pose: Pose, ahead: Floats) -> Floats:
+    def _far_bound(self, pose: Pose) -> Floats:
         """The trend, bent up away from known ground: a parabola's erosion, which is separable."""
+        p = self.parameters
         pooled = _pooled(self.height_m)
-        cell_m = 2 * self.parameters.cell_m
+        cell_m, bend = 2 * p.cell_m, 0.5 * p.curvature_pm
         centre = (np.arange(len(pooled), dtype=np.float64) + 0.5) * cell_m
         east = centre + (self.lattice.origin_m[0] - pose.x_m)
-        north = centre + (self.lattice.origin_m[1] - pose.y_m)
-        slope = self._trend(pooled, east, north, self._plane(pose, ahead), ahead)
-        trend = slope[0] * east + slope[1] * north[:, None]
-        steps = np.arange(cell_m, self.parameters.reach_m + 0.5 * cell_m, cell_m, dtype=np.float64)
-        bend = 0.5 * self.parameters.curvature_pm
-        bound = _eroded(pooled - trend, bend * steps**2)
-        guess = self.vehicle_m + bend * (east**2 + north[:, None] ** 2)
+        north = (centre + (self.lattice.origin_m[1] - pose.y_m))[:, None]
+        forward = east * self._ahead[0] + north * self._ahead[1]
+        slope = self._trend(pooled - self.vehicle_m, (east, north), forward > 0)
+        trend = slope[0] * east + slope[1] * north
+        steps = range(1, round(p.reach_m / cell_m) + 1)
+        bound = _eroded(pooled - trend, tuple(bend * (k * cell_m) ** 2 for k in steps))
+        guess = self.vehicle_m + bend * (east * east + north * north)
         bound = np.where(bound < 0.5 * UNKNOWN_M, bound, guess) + trend
-        bound[east * ahead[0] + north[:, None] * ahead[1] < -cell_m] = UNKNOWN_M
+        bound[forward < -cell_m] = UNKNOWN_M
         return bound.repeat(2, axis=0).repeat(2, axis=1)
 
     def _trend(
-        self, height: Floats, east: Floats, north: Floats, plane: Floats, ahead: Floats
-    ) -> Floats:
-        """Least-squares slope, shape (2,), of the known ground ahead, through the vehicle."""
-        forward = east * ahead[0] + north[:, None] * ahead[1] > 0
-        row, column = np.nonzero(forward & (height < UNKNOWN_M))
-        place = np.stack([east[column], north[row]])
-        normal = place @ place.T + _PRIOR_M2 * np.eye(2)
-        right = place @ (height[row, column] - self.vehicle_m) + _PRIOR_M2 * plane
-        return np.linalg.solve(normal, right)
+        self, height: Floats, place: tuple[Floats, Floats], ahead: NDArray[np.bool_]
+    ) -> tuple[float, float]:
+        """Least-squares slope of the known ground ahead, through the vehicle; normal equations."""
+        weight = (ahead & (height < 0.5 * UNKNOWN_M)).astype(np.float64)
+        east, north = place[0], place[1][:, 0]
+        columns, rows = weight.sum(axis=0), weight.sum(axis=1)
+        weighted = weight * height
+        ee = float(columns @ (east * east)) + _PRIOR_M2
+        nn = float(rows @ (north * north)) + _PRIOR_M2
+        en = float(north @ weight @ east)
+        e = float(weighted.sum(axis=0) @ east) + _PRIOR_M2 * self._plane[0]
+        n = float(weighted.sum(axis=1) @ north) + _PRIOR_M2 * self._plane[1]
+        scale = ee * nn - en * en
+        return (nn * e - en * n) / scale, (ee * n - en * e) / scale
 
     # ------------------------------------------------------------------ points
 
@@ -194,7 +206,7 @@ def _blocks(cells: Floats) -> Floats:
     return rows[:, ::2] + rows[:, 1::2]
 
 
-def _eroded(height: Floats, rise: Floats) -> Floats:
+def _eroded(height: Floats, rise: tuple[float, ...]) -> Floats:
     """Lowest of each cell and its neighbours k cells away, plus rise[k - 1], along both axes."""
     for axis in (0, 1):
         source = height if axis == 0 else height.T

@@ -1,6 +1,7 @@
 """A square lattice of cells along the axes of N that follows the vehicle in whole cells."""
 
 from dataclasses import dataclass
+from typing import Any, TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
@@ -8,6 +9,7 @@ from numpy.typing import NDArray
 from nav.messages import Floats
 
 Ints = NDArray[np.int64]
+Kind = TypeVar("Kind", bound=np.floating[Any])
 
 
 @dataclass(frozen=True)
@@ -54,7 +56,7 @@ class Lattice:
         row, column = np.divmod(index, self.count)
         return (column + (self.west + 0.5)) * self.cell_m, (row + (self.south + 0.5)) * self.cell_m
 
-    def moved(self, layer: Floats, to: "Lattice", fill: float) -> Floats:
+    def moved(self, layer: NDArray[Kind], to: "Lattice", fill: float) -> NDArray[Kind]:
         """`layer` as it lies on the lattice `to`; new cells hold `fill`."""
         result = np.full_like(layer, fill)
         rows = _overlap(to.south - self.south, self.count)

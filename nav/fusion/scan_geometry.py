@@ -9,7 +9,6 @@ from math import cos, sin
 from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
 from nav.messages import LIDAR_COUNT_M, LIDAR_NO_RETURN_COUNT, Floats
 from nav.parameters.vehicle import Lidar, LidarMount, Outline
@@ -39,22 +38,20 @@ class ScanGeometry:
     axes: Floats
     """Shape (3, 2): the fan's own forward and left direction; beam a is axes @ (cos a, sin a)."""
     direction: Floats
-    """Shape (count, 3), unit vectors."""
+    """Shape (3, count), unit vectors."""
     exit_m: Floats
     """Shape (count,): where each beam leaves the vehicle's own outline, [m]."""
     first_rad: float
     step_rad: float
 
 
-class Beams(NamedTuple):
-    """One scan's fan in the level frame."""
+class Placed(NamedTuple):
+    """Where the scanner stands in the level frame, and how it is turned."""
 
     origin_m: Floats
     """Shape (3,)."""
-    axes: Floats
-    """Shape (3, 2)."""
-    direction: Floats
-    """Shape (count, 3), unit vectors."""
+    turn: Floats
+    """Shape (3, 3), from the vehicle frame: beams are turn @ geometry.direction."""
 
 
 def rotation(roll_rad: float, pitch_rad: float, yaw_rad: float) -> Floats:
@@ -75,12 +72,12 @@ def scan_geometry(mount: LidarMount, lidar: Lidar, outline: Outline) -> ScanGeom
     """Unit vectors of all beams of one scanner, and where they leave the vehicle's outline."""
     axes = np.ascontiguousarray(rotation(mount.roll_rad, mount.pitch_rad, mount.yaw_rad)[:, :2])
     angle = lidar.first_rad + lidar.step_rad * np.arange(lidar.count)
-    direction = np.stack([np.cos(angle), np.sin(angle)], axis=1) @ axes.T
+    direction = axes @ np.stack([np.cos(angle), np.sin(angle)])
     position = np.array(mount.position_m)
     return ScanGeometry(
         position_m=position,
         axes=axes,
-        direction=np.ascontiguousarray(direction),
+        direction=direction,
         exit_m=_exit_m(position, direction, outline),
         first_rad=lidar.first_rad,
         step_rad=lidar.step_rad,
@@ -91,42 +88,38 @@ def _exit_m(position: Floats, direction: Floats, outline: Outline) -> Floats:
     """Distance at which beams from inside the outline's rectangle leave it; 0 from outside."""
     low = np.array([outline.rear_m, -outline.half_width_m])
     high = np.array([outline.front_m, outline.half_width_m])
-    place, ahead = position[:2], direction[:, :2]
+    place, ahead = position[:2], direction[:2].T
     if np.any(place < low) or np.any(place > high):
-        return np.zeros(len(direction))
+        return np.zeros(len(ahead))
     wall = np.where(ahead > 0, high, low) - place
     along = np.where(np.abs(ahead) < 1e-9, 1e-9, np.abs(ahead))
     return (np.abs(wall) / along).min(axis=1)
 
 
-def beams(geometry: ScanGeometry, pose: Pose) -> Beams:
-    """The fan in the level frame, for the measured attitude."""
+def placed(geometry: ScanGeometry, pose: Pose) -> Placed:
+    """The scanner in the level frame, for the measured attitude."""
     turn = rotation(pose.roll_rad, pose.pitch_rad, pose.heading_rad)
     origin = turn @ geometry.position_m
     origin[0] += pose.x_m
     origin[1] += pose.y_m
-    return Beams(origin, turn @ geometry.axes, geometry.direction @ turn.T)
-
-
-def returns(geometry: ScanGeometry, range_m: Floats, max_range_m: float) -> NDArray[np.bool_]:
-    """Which beams hit something within `max_range_m` and outside our own outline, (count,)."""
-    return (range_m > geometry.exit_m) & (range_m < min(max_range_m, NO_RETURN_M))
+    return Placed(origin, turn)
 
 
 def level_points(
-    geometry: ScanGeometry, range_m: Floats, pose: Pose, max_range_m: float = 40.0
-) -> Floats:
-    """Points of one scan in the level frame.
+    geometry: ScanGeometry, scanner: Placed, range_m: Floats, max_range_m: float
+) -> tuple[Floats, Floats]:
+    """Returns of one scan in the level frame, without our own outline.
 
     Args:
         geometry: the scanner.
+        scanner: as `placed` at the scan's time.
         range_m: shape (count,), [m].
-        pose: of the reference point at the scan's time.
         max_range_m: farther returns are left out, as are beams without one.
 
     Returns:
-        Shape (m, 3), [m].
+        Points, shape (3, m), [m], and the beams' vertical component, shape (m,).
     """
-    fan = beams(geometry, pose)
-    hit = returns(geometry, range_m, max_range_m)
-    return fan.origin_m + fan.direction[hit] * range_m[hit, None]
+    far = min(max_range_m, NO_RETURN_M)
+    hit = np.flatnonzero((range_m > geometry.exit_m) & (range_m < far))
+    direction = scanner.turn @ geometry.direction.take(hit, axis=1)
+    return direction * range_m.take(hit) + scanner.origin_m[:, None], direction[2]
