@@ -62,7 +62,7 @@ class Job:
         return self.out / f"{name}{suffix}"
 
     def _writer(self, course: "Course", seed: int, path: Path) -> "TapeWriter":
-        from scenarios.episode import parameter_texts
+        from scenarios.parameter_files import parameter_texts
         from tape.writer import TapeWriter
 
         said = {"scenario": self.source.name, "seed": str(seed), "ablate": " ".join(self.ablate)}
@@ -90,7 +90,7 @@ def _stop_when_asked(episode: "Episode", records: object) -> None:
 def _view() -> Any:
     """Draws `/view/`, knowing where the scanners sit."""
     from nav.parameters import parameters_from
-    from scenarios.episode import parameter_texts
+    from scenarios.parameter_files import parameter_texts
     from tape.view import View
 
     return View(parameters_from(parameter_texts()).vehicle.lidar_mounts)

@@ -16,7 +16,8 @@ from twin.world import SOFT, Obstacle
 Floats = NDArray[np.float64]
 
 PAPER, SAND, EDGE, INK = "#fbfaf7", "#f0e8d6", "#d8c9a6", "#33322e"
-GATE, MISSED, SEEN, HARD, TUNNEL = "#2f7d4f", "#c0392b", "#e0701f", "#77736b", "#8fa3b8"
+PASSED, MISSED, AHEAD = "#2f7d4f", "#c0392b", "#a5a89f"
+SEEN, HARD, TUNNEL = "#e0701f", "#77736b", "#8fa3b8"
 SPEED_MAP, TRACK, TOP_MPH = "viridis", "#21918c", 25.0
 
 
@@ -28,8 +29,13 @@ class Scene(NamedTuple):
     """Shape (n, 3): x, y [m] and speed [m/s]."""
     cells_m: Floats
     """Shape (m, 2): obstacle cells that the navigator saw."""
-    missed: frozenset[int]
+    passed: frozenset[int]
     """Gates."""
+    missed: frozenset[int]
+
+    def gate_color(self, gate: int) -> str:
+        """Of a gate that was passed, missed, or lies ahead."""
+        return PASSED if gate in self.passed else MISSED if gate in self.missed else AHEAD
 
 
 def draw_scene(axes: Axes, scene: Scene, detail: bool) -> LineCollection:
@@ -39,8 +45,8 @@ def draw_scene(axes: Axes, scene: Scene, detail: bool) -> LineCollection:
     size = 1.6 if detail else 0.7
     axes.plot(*scene.cells_m.T, "s", color=SEEN, markersize=size, markeredgewidth=0, zorder=4)
     for k, gate in enumerate(scene.course.gates):
-        color = MISSED if k in scene.missed else GATE
         ends = np.stack([gate.left_m, gate.right_m])
+        color = scene.gate_color(k)
         axes.plot(*ends.T, "-", color=color, linewidth=2.2, solid_capstyle="round", zorder=5)
     return _draw_track(axes, scene.track, 3.0 if detail else 1.7)
 

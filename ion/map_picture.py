@@ -9,7 +9,7 @@ from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
 from numpy.typing import NDArray
 
-from ion.map_layers import GATE, INK, MISSED, PAPER, SEEN, TRACK, Scene, draw_scene
+from ion.map_layers import AHEAD, INK, MISSED, PAPER, PASSED, SEEN, TRACK, Scene, draw_scene
 from ion.trace import Trace
 from nav.route.rddf import FOOT_M
 from scenarios.course import Course
@@ -42,7 +42,8 @@ def draw_map(course: Course, trace: Trace, judge: Judge, title: str, path: Path)
         OSError: the file cannot be written.
     """
     missed = frozenset(judge.gates.missed(all_behind=judge.progress.finished))
-    scene = Scene(course, trace.track(), frames(course).to_world(trace.cells_m()), missed)
+    cells_m = frames(course).to_world(trace.cells_m())
+    scene = Scene(course, trace.track(), cells_m, frozenset(judge.gates.passed), missed)
     whole, details = _whole(scene), _details(judge)
     map_in = _height_in(whole)
     figure = Figure((WIDTH_IN, map_in + DETAIL_IN), layout="constrained", facecolor=PAPER)
@@ -85,10 +86,9 @@ def _draw_whole(axes: Axes, scene: Scene, box: Box, title: str) -> None:
     _mark_ends(axes, scene)
     _frame(axes, box)
     axes.set_title(title, loc="left", color=INK, fontsize=13, fontweight="bold")
-    place = axes.inset_axes((1.01, 0.2, 0.012, 0.6))
-    bar = axes.figure.colorbar(speed, cax=place)
-    bar.set_label("speed, mph", color=INK)
-    place.spines[:].set_visible(False)
+    bar = axes.figure.colorbar(speed, ax=axes, shrink=0.55, aspect=35, pad=0.01)
+    bar.ax.set_title("mph", color=INK, fontsize=9)
+    bar.ax.spines[:].set_visible(False)
     _scale_bar(axes, box)
 
 
@@ -110,10 +110,18 @@ def _draw_detail(axes: Axes, scene: Scene, name: str, pose: Pose | None) -> None
 
 def _number_gates(axes: Axes, scene: Scene) -> None:
     for k, gate in enumerate(scene.course.gates):
-        color = MISSED if k in scene.missed else GATE
         across = gate.left_m - gate.right_m
         x, y = (gate.left_m + 7.0 * across / np.hypot(*across)).tolist()
-        axes.text(x, y, str(k + 1), color=color, fontsize=6.5, ha="center", va="center", zorder=8)
+        axes.text(
+            x,
+            y,
+            str(k + 1),
+            color=scene.gate_color(k),
+            fontsize=6.5,
+            ha="center",
+            va="center",
+            zorder=8,
+        )
 
 
 def _mark_ends(axes: Axes, scene: Scene) -> None:
@@ -126,12 +134,13 @@ def _mark_ends(axes: Axes, scene: Scene) -> None:
             markeredgewidth=1.3, zorder=9, label=label, linestyle="none",
         )  # fmt: skip
     axes.plot([], [], "s", color=SEEN, markersize=4, label="obstacle seen", linestyle="none")
-    axes.plot([], [], "-", color=GATE, linewidth=2.2, label="gate passed")
-    if scene.missed:
-        axes.plot([], [], "-", color=MISSED, linewidth=2.2, label="gate missed")
-    axes.plot([], [], "-", color=TRACK, linewidth=2.2, label="trajectory")
+    colors = {"gate passed": PASSED, "missed": MISSED, "ahead": AHEAD}
+    shown = {scene.gate_color(k) for k in range(len(scene.course.gates))}
+    lines = {name: color for name, color in colors.items() if color in shown}
+    for name, color in (lines | {"trajectory": TRACK}).items():
+        axes.plot([], [], "-", color=color, linewidth=2.2, label=name)
     axes.legend(
-        loc="upper center", bbox_to_anchor=(0.5, 0.0), ncols=7, frameon=False, fontsize=8.5,
+        loc="upper center", bbox_to_anchor=(0.5, 0.0), ncols=8, frameon=False, fontsize=8.5,
         labelcolor=INK,
     )  # fmt: skip
 
