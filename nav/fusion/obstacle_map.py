@@ -9,7 +9,6 @@ keeps its confidence, so blind corners persist, and so does what is lower than t
 from collections.abc import Sequence
 from dataclasses import dataclass
 from math import cos, sin
-from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -17,12 +16,12 @@ from numpy.typing import NDArray
 from nav.errors import NavError
 from nav.fusion.ground_profile import GroundProfile
 from nav.fusion.lattice import Ints, Lattice
-from nav.fusion.scan_geometry import Placed, Pose, ScanGeometry, level_points, placed, scan_geometry
+from nav.fusion.scan_geometry import Pose, level_points, placed, scan_geometry
+from nav.fusion.see_through import View, look
 from nav.messages import Floats, LidarScan
 from nav.parameters.obstacle_map import ObstacleMapParameters
 from nav.parameters.vehicle import Outline, VehicleParameters
 
-Bools = NDArray[np.bool_]
 _NO_TOP_M = -1e6
 _NOTHING_S, _LONG_S = 0.0, 0.3
 """Decay of one tick covers at least and at most this time."""
@@ -38,14 +37,6 @@ class Occupied:
     """Shape (n, 2), cell centres, route frame N."""
     confidence: Floats
     """Shape (n,), 0 to 1."""
-
-
-class _View(NamedTuple):
-    """The newest scan of one scanner."""
-
-    geometry: ScanGeometry
-    scanner: Placed
-    range_m: Floats
 
 
 class ObstacleMap:
@@ -159,9 +150,9 @@ class ObstacleMap:
             left[scan.sensor] -= 1
         return chosen[::-1]
 
-    def _view(self, scan: LidarScan, pose: Pose) -> _View:
+    def _view(self, scan: LidarScan, pose: Pose) -> View:
         geometry = self._geometry[scan.sensor]
-        return _View(geometry, placed(geometry, pose), scan.range_m)
+        return View(geometry, placed(geometry, pose), scan.range_m)
 
     def _follow(self, pose: Pose, new_bound: bool = True) -> None:
         self.recenter(pose.x_m, pose.y_m)
@@ -175,7 +166,7 @@ class ObstacleMap:
 
     # ------------------------------------------------------------------ returns
 
-    def _mark(self, views: Sequence[_View], pose: Pose) -> Ints:
+    def _mark(self, views: Sequence[View], pose: Pose) -> Ints:
         """Sort the returns; obstacles gain in `_gain` and `_top`. Returns their cells."""
         p = self.parameters
         parts = [level_points(*view, p.max_range_m) for view in views]
@@ -185,14 +176,18 @@ class ObstacleMap:
         steep = rise < -p.ground.teaching_slope
         near = distance < p.ground.teaching_range_m
         self.ground.learn(coarse, points[2], ground & steep & near, obstacle)
-        x, y, z = points[:, obstacle]
-        index, inside = self.lattice.index(x, y)
+        # a steep beam's height is uncertain: what only such beams have seen (a bale) counts as so
+        # low that a level beam, which passes over it, does not deny it
+        height = points[2] - np.where(steep, p.ground.tilt_rad * distance, 0.0)
+        return self._gather(points[:2, obstacle], height[obstacle])
+
+    def _gather(self, place: Floats, height_m: Floats) -> Ints:
+        index, inside = self.lattice.index(place[0], place[1])
         index = index[inside]
-        np.add.at(self._gain.ravel(), index, np.float32(p.confidence.hit))
-        top = (z[inside] + self.ground.vehicle_m).astype(
-            np.float32
-        )  # of one kind: ten times faster
-        np.maximum.at(self._top.ravel(), index, top)
+        np.add.at(self._gain.ravel(), index, np.float32(self.parameters.confidence.hit))
+        top = height_m[inside] + self.ground.vehicle_m
+        # both sides of one kind: ten times faster
+        np.maximum.at(self._top.ravel(), index, top.astype(np.float32))
         return index
 
     def _add(self, index: Ints) -> None:
@@ -206,7 +201,7 @@ class ObstacleMap:
         self._confidence.ravel()[index[inside]] = 0.0
         self._top.ravel()[index[inside]] = _NO_TOP_M
 
-    def _decay(self, views: Sequence[_View], elapsed_s: float) -> None:
+    def _decay(self, views: Sequence[View], elapsed_s: float) -> None:
         """Take confidence from cells in view that were not hit in this tick."""
         cells = self._confidence.ravel()
         index = np.flatnonzero(cells > 0.0)  # of bools: 20 times faster than of floats
@@ -215,62 +210,11 @@ class ObstacleMap:
         top = self._top.ravel()[index].astype(np.float64)
         place = np.stack([x, y, top - self.ground.vehicle_m])
         p = self.parameters.confidence
-        through, beside = _look(views, place, p.margin_m)
+        through, beside = look(views, place, p.margin_m)
         rate = np.where(through, p.clear_ps, np.where(beside, p.fade_ps, 0.0))
         left = np.maximum(cells[index] - rate * elapsed_s, 0.0)
         cells[index] = left
         self._top.ravel()[index[left == 0.0]] = _NO_TOP_M
-
-
-# ---------------------------------------------------------------------- see-through
-
-
-def _look(views: Sequence[_View], place: Floats, margin_m: float) -> tuple[Bools, Bools]:
-    """What k scanners say of n cells at `place` (east, north, top), shape (3, n).
-
-    Returns:
-        through: a beam passes the cell no higher than its top. beside: no beam does, but one ends
-        near the cell's distance. Both (n,). Three neighbouring beams must agree.
-    """
-    origin = np.array([view.scanner.origin_m for view in views])[:, :, None]  # (k, 3, 1)
-    rise = np.array([view.scanner.turn[2] @ view.geometry.direction for view in views])
-    level = np.sqrt(1.0 - rise * rise)
-    nearest, farthest = _neighbours(np.array([view.range_m for view in views]) * level)
-
-    x, y = place[0] - origin[:, 0], place[1] - origin[:, 1]  # (k, n)
-    distance = np.sqrt(x * x + y * y)
-    beam, inside = _beam(views, x, y)
-    height = origin[:, 2] + distance * (rise / level).ravel()[beam]
-    low = inside & (height <= place[2] + 0.02 + 0.002 * distance)
-    over = nearest.ravel()[beam] - distance
-    through = (low & (over > margin_m)).any(axis=0)
-    spread = (farthest - nearest).ravel()[beam]  # when grazing, returns lie far apart
-    beside = (low & (np.abs(over) <= margin_m) & (spread < 2 * margin_m)).any(axis=0)
-    return through, beside & ~through
-
-
-def _beam(views: Sequence[_View], x: Floats, y: Floats) -> tuple[Ints, Bools]:
-    """Index into all beams, (k, n), of the one above or below a place that lies (x, y) from the
-    scanner, and whether there is one with two neighbours.
-
-    The fan's beam a is forward * cos a + left * sin a; its level part is parallel to (x, y).
-    """
-    axes = np.array([view.scanner.turn[:2] @ view.geometry.axes for view in views])[..., None]
-    forward, left = axes[:, :, 0], axes[:, :, 1]  # (k, 2, 1)
-    angle = np.arctan2(forward[:, 0] * y - forward[:, 1] * x, left[:, 1] * x - left[:, 0] * y)
-    fan, count = views[0].geometry, len(views[0].range_m)
-    beam = np.rint((angle - fan.first_rad) * (1 / fan.step_rad)).astype(np.int64)
-    inside = (beam >= 1) & (beam < count - 1)
-    return np.where(inside, beam, 0) + count * np.arange(len(views))[:, None], inside
-
-
-def _neighbours(range_m: Floats) -> tuple[Floats, Floats]:
-    """Nearest and farthest of each beam and its two neighbours, shape (k, count)."""
-    nearest, farthest = range_m.copy(), range_m.copy()
-    for one, other in ((slice(1, None), slice(None, -1)), (slice(None, -1), slice(1, None))):
-        np.minimum(nearest[:, one], range_m[:, other], out=nearest[:, one])
-        np.maximum(farthest[:, one], range_m[:, other], out=farthest[:, one])
-    return nearest, farthest
 
 
 # ---------------------------------------------------------------------- the vehicle
