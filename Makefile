@@ -32,6 +32,9 @@ check: .venv/.dev
 	$(BIN)/lint-imports
 	$(BIN)/pytest
 
-# Twenty seeds of the NQE, two at a time: what a change to the navigator is measured by.
+# What an episode costs, part by part; then twenty seeds of the NQE, two at a time: what a change
+# to the navigator is measured by.
 bench: .venv/.base
+	$(BIN)/python tests/bench_raycast.py
+	$(BIN)/python tests/bench_episode.py
 	$(BIN)/ion drive nqe --seeds 0-19 --jobs 2 --out runs/bench --json
