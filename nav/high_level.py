@@ -65,14 +65,12 @@ class HighLevelController:
         p, ego, here = self.parameters.planning, senses.ego, self.here
         boundaries = self._boundaries(obstacles)
         ahead = self._route_ahead(ego)
-        real, safe = clear_distances(ahead, boundaries, p.footprint)
         return Situation(
             time_ns=time_ns,
             ego=ego,
             boundaries=boundaries,
             route_ahead=ahead,
-            route_real_m=real,
-            route_safe_m=safe,
+            route_clear=clear_distances(ahead, boundaries, p.footprint),
             goal_rad=self._goal(ego),
             V0_mps=float(self.V0[here.index]),
             cross_track_m=here.cross_track_m,

@@ -7,7 +7,7 @@ import pytest
 
 from nav.messages import EgoEstimate
 from nav.parameters import parameters_from
-from nav.planning.boundaries import REAL
+from nav.planning.boundaries import TOUCH
 from nav.planning.curve import sampled
 from nav.planning.local_path import clear_distances
 from nav.planning.scanning import Boundaries
@@ -24,18 +24,18 @@ OPEN = dict.fromkeys(WALLS, 4.0)
 def situation(
     *blocks: tuple[float, float, float, float], t: float = 0.0, gps_lost_s: float = 0.0, sonar=OPEN
 ) -> Situation:
-    """The vehicle at the origin of a straight route along x, with real boundaries as blocks."""
+    """The vehicle at the origin of a straight route along x; blocks must not be touched."""
     level = np.zeros((320, 320), np.uint8)
     centre = -32.0 + (np.arange(320) + 0.5) * 0.2
     for x0, x1, y0, y1 in blocks:
         rows, columns = (centre > y0) & (centre < y1), (centre > x0) & (centre < x1)
-        level[np.ix_(rows, columns)] = REAL
+        level[np.ix_(rows, columns)] = TOUCH
     boundaries = Boundaries(level, (-32.0, -32.0), 0.2)
     route = sampled(np.column_stack([np.arange(0, 30.5, 0.5), np.zeros(61)]))
-    real, safe = clear_distances(route, boundaries, P.planning.footprint)
+    clear = clear_distances(route, boundaries, P.planning.footprint)
     ego = EgoEstimate(int(t * 1e9), [0, 0], 0.0, 3.0, 0.0, 0.0, 0.0, 0.1, 0.01)
     return Situation(
-        ego.time_ns, ego, boundaries, route, real, safe, 0.0, 5.0, 0.0, 1, 0.0, gps_lost_s, sonar
+        ego.time_ns, ego, boundaries, route, clear, 0.0, 5.0, 0.0, 1, 0.0, gps_lost_s, sonar
     )
 
 

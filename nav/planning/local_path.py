@@ -1,12 +1,13 @@
 """The local path of ten pathpoints (section 6.4): along the route, or in a decided direction."""
 
 from math import cbrt, cos, sin
+from typing import NamedTuple
 
 import numpy as np
 
 from nav.messages import Floats
 from nav.parameters.planning import Footprint, LocalPathParameters
-from nav.planning.boundaries import REAL, SAFE
+from nav.planning.boundaries import REAL, SAFE, TOUCH
 from nav.planning.curve import Curve, resampled, sampled
 from nav.planning.scanning import Boundaries, Fan, discs, free_distance
 from nav.route.smooth_path import SmoothPath
@@ -78,12 +79,16 @@ def towards(curves: Fan, row: int, x_m: float, y_m: float, heading_rad: float) -
     return sampled(np.stack([x_m + c * u - s * v, y_m + s * u + c * v], axis=1))
 
 
-def clear_distances(
-    curve: Curve, boundaries: Boundaries, footprint: Footprint
-) -> tuple[float, float]:
-    """Distance along a curve before the outline enters the real and the safe boundary, [m]."""
+class Clear(NamedTuple):
+    """Distances along a curve before the outline enters a boundary, [m]."""
+
+    safe_m: float
+    real_m: float
+    touch_m: float
+
+
+def clear_distances(curve: Curve, boundaries: Boundaries, footprint: Footprint) -> Clear:
+    """How far a curve is free of each boundary."""
     centres = discs(curve.position_m, curve.heading_rad, footprint)
     level = boundaries.at(centres[..., 0], centres[..., 1]).max(axis=-1)[None, :]
-    real = free_distance(level, curve.arc_m, REAL)
-    safe = free_distance(level, curve.arc_m, SAFE)
-    return float(real[0]), float(safe[0])
+    return Clear(*(float(free_distance(level, curve.arc_m, b)[0]) for b in (SAFE, REAL, TOUCH)))

@@ -7,6 +7,7 @@ whole outline is moved along the curve, as discs on the vehicle's axis.
 """
 
 from dataclasses import dataclass
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -18,7 +19,9 @@ from nav.planning.boundaries import REAL, SAFE, TOUCH
 ESCAPE_M = 4.0
 """A vehicle that stands inside a boundary may take this far to leave it ..."""
 ESCAPE_TOUCH_M = 0.5
-"""... and this far where the outline itself seems to touch, for the map is not exact."""
+"""... this far where the outline itself seems to touch, for the map is not exact ..."""
+ESCAPE_SLACK_M = {SAFE: ESCAPE_M, REAL: 1.0, TOUCH: ESCAPE_TOUCH_M}
+"""... and not this much longer than the direction that leaves it soonest."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -110,23 +113,46 @@ def discs(position_m: Floats, heading_rad: Floats, footprint: Footprint) -> Floa
     return position_m[..., None, :] + axis[..., None, :] * np.array(footprint.disc_x_m)[:, None]
 
 
+class Distances(NamedTuple):
+    """Scanning distances, shape (n,) each, [m]."""
+
+    safe_m: Floats
+    """D_S."""
+    real_m: Floats
+    """D_R."""
+    touch_m: Floats
+    """Before the outline itself touches: what the speed must respect."""
+
+
 def scan(
     curves: Fan, boundaries: Boundaries, x_m: float, y_m: float, heading_rad: float
-) -> tuple[Floats, Floats]:
-    """Distances D_R and D_S, shape (n,) each, [m], from a pose in the frame N."""
+) -> Distances:
+    """Distances to all boundaries from a pose in the frame N."""
     c, s = np.cos(heading_rad), np.sin(heading_rad)
     u, v = curves.disc_m[..., 0], curves.disc_m[..., 1]
     level = boundaries.at(x_m + c * u - s * v, y_m + s * u + c * v).max(axis=-1)
-    return free_distance(level, curves.arc_m, REAL), free_distance(level, curves.arc_m, SAFE)
+    return Distances(*(free_distance(level, curves.arc_m, b) for b in (SAFE, REAL, TOUCH)))
 
 
 def free_distance(level: NDArray[np.uint8], arc_m: Floats, boundary: int) -> Floats:
-    """Distance to the first sample at or above `boundary`, shape (n,) for levels (n, m)."""
+    """Distance to the first sample at or above `boundary`, shape (n,) for levels (n, m).
+
+    Rows that start inside the boundary are free where they leave it soon enough.
+    """
     blocked = level >= boundary
-    if not blocked.any():
-        return np.full(level.shape[0], arc_m[-1])
-    reach = np.where(level >= TOUCH, ESCAPE_TOUCH_M, ESCAPE_M)
-    leaving = np.logical_and.accumulate(blocked & (arc_m < reach), axis=-1)
-    blocked &= ~leaving
+    if blocked[:, 0].any():
+        blocked &= ~_leaving(level, blocked, arc_m, ESCAPE_SLACK_M[boundary])
     first = blocked.argmax(axis=-1)
     return np.where(blocked.any(axis=-1), arc_m[first], arc_m[-1])
+
+
+def _leaving(
+    level: NDArray[np.uint8], blocked: NDArray[np.bool_], arc_m: Floats, slack_m: float
+) -> NDArray[np.bool_]:
+    """The samples (n, m) by which a row that starts inside a boundary leaves it in time."""
+    inside = np.logical_and.accumulate(blocked, axis=-1)
+    way = arc_m[np.minimum(inside.sum(axis=-1), len(arc_m) - 1)]
+    scrapes = (inside & (level >= TOUCH) & (arc_m >= ESCAPE_TOUCH_M)).any(axis=-1)
+    way = np.where(scrapes, np.inf, way)
+    in_time = way <= min(float(way.min()) + slack_m, ESCAPE_M)
+    return inside & in_time[:, None]

@@ -40,8 +40,8 @@ def out_of_tunnel(s: Situation, memory: Memory, p: Parameters) -> str:
 def obstacle_ahead(s: Situation, memory: Memory, p: Parameters) -> str:
     """The smooth path comes across an obstacle (section 6.4.2)."""
     del memory, p
-    blocked = s.route_real_m < s.route_ahead.arc_m[-1]
-    return f"obstacle on the smooth path in {s.route_real_m:.0f} m" if blocked else ""
+    blocked = s.route_clear.real_m < s.route_ahead.arc_m[-1]
+    return f"obstacle on the smooth path in {s.route_clear.real_m:.0f} m" if blocked else ""
 
 
 def route_clear(s: Situation, memory: Memory, p: Parameters) -> str:

@@ -1,7 +1,9 @@
 """Obstacle Avoidance: the fuzzy steering controller picks a direction (section 6.4.2).
 
-D1, the distance in front of the vehicle, is measured along the local path in force: corridor
-edges are boundaries, so straight ahead would mean a stop before every sharp turn.
+The direction is decided on the real and the safe boundary. D1 and D, which decide the speed, end
+where the outline itself would touch: a boundary that the vehicle may stray into must not stop it.
+D1 is measured along the local path in force: corridor edges are boundaries, so straight ahead
+would mean a stop before every sharp turn.
 """
 
 import numpy as np
@@ -14,7 +16,7 @@ from nav.planning.speed import set_point
 from nav.planning.steering import decide
 from nav.planning.steering_circle import curvature_rate
 from nav.states.memory import Memory
-from nav.states.replanning import blocked_in, due
+from nav.states.replanning import distance_ahead, due
 from nav.states.situation import Plan, Situation
 
 NAME = "obstacle_avoidance"
@@ -25,13 +27,13 @@ def plan(s: Situation, memory: Memory, p: Parameters) -> Plan:
     ego = s.ego
     x, y = (float(v) for v in ego.position_m)
     curves = fan(p.planning.scanning, p.planning.footprint, _turning(s, p))
-    real, safe = scan(curves, s.boundaries, x, y, ego.heading_rad)
+    distances = scan(curves, s.boundaries, x, y, ego.heading_rad)
     reason = due(s, memory, p)
     theta = curves.theta_rad + ego.heading_rad
     decision = decide(
         theta,
-        real,
-        safe,
+        distances.real_m,
+        distances.safe_m,
         ego.heading_rad,
         s.goal_rad,
         memory.decision_rad,
@@ -43,13 +45,14 @@ def plan(s: Situation, memory: Memory, p: Parameters) -> Plan:
     memory.decision_rad = decision.theta_D
     reason = reason or _turned(memory, theta[row], p)
     if reason or memory.pathpoint_m is None:
-        length = min(path_length(ego.speed_mps, p.planning.local_path), float(real[row]))
+        length = min(
+            path_length(ego.speed_mps, p.planning.local_path), float(distances.real_m[row])
+        )
         path = towards(curves, row, x, y, ego.heading_rad)
         memory.follow(pathpoints(path, max(length, 1.0)), s.waypoint)
     assert memory.pathpoint_m is not None
-    D = float(real[row])
-    blocked = blocked_in(s, memory, p)
-    D1 = D if blocked is None else blocked
+    D = float(distances.touch_m[row])
+    D1 = distance_ahead(s, memory, D, p)
     limit = min(s.V0_mps, p.planning.speed.avoid_mps)
     turn = abs(wrapped(decision.theta_D - ego.heading_rad))
     speed = set_point(D1, D, turn, limit, decision.selected, p.speed).speed_mps

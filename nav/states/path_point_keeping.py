@@ -23,7 +23,7 @@ def plan(s: Situation, memory: Memory, p: Parameters) -> Plan:
     direction = float(s.route_ahead.heading_rad[min(4, len(s.route_ahead.heading_rad) - 1)])
     turn = abs(wrapped(direction - s.ego.heading_rad))
     limit = min(s.V0_mps, _through_narrows(s, p))
-    distance = s.route_real_m
+    distance = s.route_clear.real_m
     speed = set_point(distance, distance, turn, limit, "safe", p.speed).speed_mps
     return Plan(memory.pathpoint_m, speed, distance, distance, direction, replanned=reason)
 
@@ -31,4 +31,4 @@ def plan(s: Situation, memory: Memory, p: Parameters) -> Plan:
 def _through_narrows(s: Situation, p: Parameters) -> float:
     """Speed from which braking reaches `narrow_mps` where the safe boundary begins."""
     speed = p.planning.speed
-    return sqrt(speed.narrow_mps**2 + 2.0 * speed.braking_mps2 * s.route_safe_m)
+    return sqrt(speed.narrow_mps**2 + 2.0 * speed.braking_mps2 * s.route_clear.safe_m)

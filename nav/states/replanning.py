@@ -19,16 +19,21 @@ def due(s: Situation, memory: Memory, p: Parameters) -> str:
     here = _index(memory.curve, s.ego.position_m)
     if here >= _index(memory.curve, memory.pathpoint_m[FIFTH]):
         return "fifth pathpoint reached"
-    return "path crosses an obstacle" if blocked_in(s, memory, p) is not None else ""
+    rest = _rest(memory.curve, here)
+    clear = clear_distances(rest, s.boundaries, p.planning.footprint)
+    return "path crosses an obstacle" if clear.real_m < rest.arc_m[-1] else ""
 
 
-def blocked_in(s: Situation, memory: Memory, p: Parameters) -> float | None:
-    """Distance along the local path in force to a real boundary, or None where it is free."""
+def distance_ahead(s: Situation, memory: Memory, beyond_m: float, p: Parameters) -> float:
+    """D1: distance along the local path in force before the outline would touch, [m].
+
+    Where the path is free to its end, `beyond_m` says how far the way is free.
+    """
     if memory.curve is None:
-        return None
-    ahead = _rest(memory.curve, _index(memory.curve, s.ego.position_m))
-    clear, _ = clear_distances(ahead, s.boundaries, p.planning.footprint)
-    return clear if clear < ahead.arc_m[-1] else None
+        return beyond_m
+    rest = _rest(memory.curve, _index(memory.curve, s.ego.position_m))
+    clear = clear_distances(rest, s.boundaries, p.planning.footprint).touch_m
+    return clear if clear < rest.arc_m[-1] else beyond_m
 
 
 def _index(curve: Curve, point_m: Floats) -> int:

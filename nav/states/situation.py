@@ -4,6 +4,7 @@ from dataclasses import dataclass
 
 from nav.messages import EgoEstimate, Floats
 from nav.planning.curve import Curve
+from nav.planning.local_path import Clear
 from nav.planning.scanning import Boundaries
 
 
@@ -16,10 +17,8 @@ class Situation:
     boundaries: Boundaries
     route_ahead: Curve
     """The smooth path from here on, joined from the vehicle's pose."""
-    route_real_m: float
-    """Distance along it before the real boundary ..."""
-    route_safe_m: float
-    """... and before the safe boundary."""
+    route_clear: Clear
+    """How far it is free."""
     goal_rad: float
     """phi(k)."""
     V0_mps: float
