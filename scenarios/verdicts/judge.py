@@ -25,6 +25,8 @@ TICK_S = 0.02
 PATH_STATE = "path_point_keeping"
 PATH_SPEED_MPS = 1.0
 PATH_CLEAR_M = 15.0
+TUNNEL_REACH_M = 4.0
+"""Farther from its centre line a vehicle is beside the tunnel, not in it: on another leg."""
 STUCK_S = 60.0
 STUCK_M = 1.0
 
@@ -117,7 +119,7 @@ class Judge:
         self.true.observe(self.frames.to_route(place[None])[0], counts)
         if self.course.tunnel_center_line_m is not None:
             offset_m = line_offset_m(self.course.tunnel_center_line_m, place)
-            if offset_m is not None:
+            if offset_m is not None and offset_m < TUNNEL_REACH_M:
                 self.tunnel.add(offset_m)
 
     def _keeps_path(self, truth: Truth, decision: Decision) -> bool:
