@@ -1,4 +1,4 @@
-"""The obstacle map in a tiny world of its own: ground by a function, upright boxes, ray marching."""
+"""The obstacle map in a tiny world of its own: ground by a function, upright boxes, rays."""
 
 import pickle
 from collections.abc import Callable
@@ -7,7 +7,6 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-
 
 from nav.errors import NavError
 from nav.fusion.obstacle_map import ObstacleMap
@@ -78,7 +77,7 @@ def on(ground: Ground, x_m: float, y_m: float = 0.0, heading_rad: float = 0.0) -
 def tick(chart: ObstacleMap, pose: Pose, boxes: list[Box], ground: Ground = flat, **more):
     """One tick of 0.1 s: two scans of each scanner. `error` is added to the measured pose."""
     error, time_s = more.get("error", (0,) * 5), more.get("time_s", 0.0)
-    said = Pose(*(a + b for a, b in zip(pose, error)))
+    said = Pose(*(a + b for a, b in zip(pose, error, strict=True)))
     names = more.get("names", MOUNTS)
     scans = [scan(n, pose, boxes, ground, time_s + t) for t in (0.0, 0.05) for n in names]
     chart.integrate([(s, said) for s in scans])
@@ -158,7 +157,8 @@ def test_a_bale_lower_than_the_level_beams_stays_when_it_is_no_longer_seen(
 def test_a_gate_is_seen_at_20_m_with_its_opening_free(chart: ObstacleMap) -> None:
     drive(chart, GATE, start=-5.0, stop=0.0)
     x, y = chart.occupied().position_m.T
-    assert np.any(y > 1.5) and np.any(y < -1.5)
+    assert np.any(y > 1.5)
+    assert np.any(y < -1.5)
     assert np.all((np.abs(x - 20.0) <= 0.3) & (np.abs(np.abs(y) - 1.675) <= 0.2))
 
 
@@ -167,8 +167,9 @@ def test_drift_of_the_estimate_does_not_fill_a_gate(chart: ObstacleMap) -> None:
         drift = 0.1 * sin(0.1 * k)
         error = (drift, 0.1 * cos(0.13 * k), 0.003 * sin(0.2 * k), 0, 0)
         tick(chart, Pose(5.0 + 0.2 * k, 0, 0, 0, 0), GATE, time_s=0.1 * k, error=error)
-    x, y = chart.occupied().position_m.T
-    assert np.any(y > 1.5) and np.any(y < -1.5)
+    y = chart.occupied().position_m[:, 1]
+    assert np.any(y > 1.5)
+    assert np.any(y < -1.5)
     assert np.abs(y).min() >= 1.35
 
 

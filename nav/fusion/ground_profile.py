@@ -93,7 +93,9 @@ class GroundProfile:
         x, y = self._wheel_m[:, 0], self._wheel_m[:, 1]
         east, north = c * x - s * y, s * x + c * y
         index, _ = self.lattice.index(pose.x_m + east, pose.y_m + north)
-        plane = self._plane[0] * east + self._plane[1] * north
+        # the plane's height in the middle of the cells: they are coarse, and slopes would drag
+        middle = self.lattice.centre_m(index)
+        plane = self._plane[0] * (middle[0] - pose.x_m) + self._plane[1] * (middle[1] - pose.y_m)
         cells = self.height_m.ravel()
         known = cells[index] < UNKNOWN_M
         if known.any():
