@@ -23,8 +23,8 @@ from nav.parameters.obstacle_map import ObstacleMapParameters
 from nav.parameters.vehicle import Outline, VehicleParameters
 
 _NO_TOP_M = -1e6
-_NOTHING_S, _LONG_S = 0.0, 0.3
-"""Decay of one tick covers at least and at most this time."""
+_LONGEST_S = 0.3
+"""Decay of one tick covers at most this time: one look after a gap proves no long absence."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -162,7 +162,7 @@ class ObstacleMap:
     def _elapsed_s(self, time_ns: int) -> float:
         last = time_ns if self._time_ns is None else self._time_ns
         self._time_ns = time_ns
-        return min(max((time_ns - last) * 1e-9, _NOTHING_S), _LONG_S)
+        return min(max((time_ns - last) * 1e-9, 0.0), _LONGEST_S)
 
     # ------------------------------------------------------------------ returns
 
