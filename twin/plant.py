@@ -26,6 +26,7 @@ Floats = NDArray[np.float64]
 GROUND = "ground"
 _SPEED_LEVEL_MPS = 0.05
 _CHASSIS, _OBSTACLE, _SOFT = 1, 2, 3
+_SITE = mujoco.mjtObj.mjOBJ_SITE
 
 
 class Plant:
@@ -99,9 +100,11 @@ class Plant:
 
     def step(self) -> None:
         """One physics step of 1/300 s; positions, velocities and contacts are fresh after it."""
-        speed = self.speed_mps
+        velocity = self._velocity()
+        speed = self._ahead(velocity)
         applied = self._shim.step(clock.time_ns(self.k), speed)
         self._actuate(applied, speed)
+        self._drag(velocity)
         mujoco.mj_step2(self.model, self.data)
         self._soften(abs(speed))
         mujoco.mj_step1(self.model, self.data)
@@ -112,14 +115,13 @@ class Plant:
         data, at, p = self.data, self._at, self._drivetrain
         gear = Gear.NEUTRAL if applied.shifting else applied.gear
         force = self._engine.force(applied.throttle, gear, speed)
-        spin = data.qvel[at.spin_dof].tolist()
+        spin = data.qvel.take(at.spin_dof).tolist()
         data.ctrl[at.actuators] = (
             *ackermann(linkage(applied.steering_rad)), *wheel_torques(p, force, spin),
         )  # fmt: skip
         if applied.brake != self._brake:
             self._brake = applied.brake
             self.model.dof_frictionloss[at.spin_dof] = friction_torques(p, applied.brake)
-        self._drag()
 
     def _soften(self, speed: float) -> None:
         level = int(speed / _SPEED_LEVEL_MPS)
@@ -129,14 +131,14 @@ class Plant:
             self.model.geom_solref[self._at.tire_geom] = solref
             self.model.geom_solimp[self._at.tire_geom, :2] = solimp
 
-    def _drag(self) -> None:
-        vx, vy, vz = self.data.qvel[self._at.free_dof : self._at.free_dof + 3].tolist()
+    def _drag(self, velocity: list[float]) -> None:
+        vx, vy, vz = velocity
         scale = -self._drivetrain.drag_n_s2_m2 * hypot(vx, vy, vz)
         self.data.xfrc_applied[self._at.body, :3] = (scale * vx, scale * vy, scale * vz)
 
     def _touch(self) -> None:
         geom = self.data.contact.geom
-        if np.count_nonzero(self._kind[geom]):
+        if np.count_nonzero(self._kind.take(geom)):
             for a, b in geom.tolist():
                 self._note(a, b)
 
@@ -152,25 +154,32 @@ class Plant:
     @property
     def speed_mps(self) -> float:
         """Speed of the reference point along the vehicle's x axis, signed, [m/s]."""
-        vx, vy, vz = self.data.qvel[self._at.free_dof : self._at.free_dof + 3].tolist()
+        return self._ahead(self._velocity())
+
+    def _velocity(self) -> list[float]:
+        """Of the reference point, world axes, [m/s]."""
+        return self.data.qvel[self._at.free_dof : self._at.free_dof + 3].tolist()
+
+    def _ahead(self, velocity: list[float]) -> float:
+        """A velocity's part along the vehicle's x axis."""
+        vx, vy, vz = velocity
         fx, fy, fz = self.data.xmat[self._at.body, 0::3].tolist()
         return vx * fx + vy * fy + vz * fz
 
     @property
     def wheel_speed_radps(self) -> Floats:
         """Shape (6,), signed, [rad/s]; front left, front right, middle l, r, rear l, r."""
-        return self.data.qvel[self._at.spin_dof]
+        return self.data.qvel.take(self._at.spin_dof)
 
     def site_pose(self, name: str) -> tuple[Floats, Floats]:
         """World position (3,) [m] and rotation (3, 3), site to world."""
-        site = self.data.site(name)
-        return site.xpos.copy(), site.xmat.reshape(3, 3).copy()
+        site, data = self._at.site[name], self.data
+        return data.site_xpos[site].copy(), data.site_xmat[site].reshape(3, 3).copy()
 
     def site_velocity(self, name: str) -> tuple[Floats, Floats]:
         """Linear (3,) [m/s] and angular velocity (3,) [rad/s] of a site, world axes."""
-        site = self.model.site(name).id
-        velocity = np.empty(6)
-        mujoco.mj_objectVelocity(self.model, self.data, mujoco.mjtObj.mjOBJ_SITE, site, velocity, 0)
+        site, velocity = self._at.site[name], np.empty(6)
+        mujoco.mj_objectVelocity(self.model, self.data, _SITE, site, velocity, 0)
         return velocity[3:], velocity[:3]
 
     def imu(self) -> tuple[Floats, Floats]:
@@ -191,7 +200,7 @@ class Plant:
             roll_rad=atan2(R[7], R[8]),
             pitch_rad=atan2(-R[6], hypot(R[0], R[3])),
             speed_mps=self.speed_mps,
-            tire_center_m=data.xpos[at.wheel_body],
+            tire_center_m=data.xpos.take(at.wheel_body, axis=0),
             contacts=contacts,
         )
 

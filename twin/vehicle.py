@@ -79,6 +79,7 @@ class Indices(NamedTuple):
     tire_geom: np.ndarray
     gyro: int
     accelerometer: int
+    site: dict[str, int]
 
 
 def indices(model: mujoco.MjModel) -> Indices:
@@ -98,6 +99,7 @@ def indices(model: mujoco.MjModel) -> Indices:
         tire_geom=np.array([model.geom(f"{w}_tire").id for w in WHEELS]),
         gyro=int(model.sensor("imu_gyro").adr[0]),
         accelerometer=int(model.sensor("imu_accelerometer").adr[0]),
+        site={model.site(i).name: i for i in range(model.nsite)},
     )
 
 
