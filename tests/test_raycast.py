@@ -150,9 +150,11 @@ def test_says_what_was_hit():
     wall = Obstacle("wall", "car", "box", (5.0, 0.0, 1.0), (0.1, 1.0, 1.0))
     scene = scene_of(np.zeros((POINTS, POINTS)), [*tunnel(0.1), wall])
     directions = np.array([[1.0, 0.0, 0.0], [0.0, 0.0, -1.0], [0.0, 0.0, 1.0]])
-    range_m, what = cast_hits(scene, np.array([2.0, 0.0, 1.0]), directions, MAX_RANGE_M)
-    np.testing.assert_array_equal(what, [3, GROUND, NO_HIT])
-    np.testing.assert_allclose(range_m, [2.9, 1.0, MAX_RANGE_M])
+    origins = np.array([[2.0, 0.0, 1.0], [3.0, 0.0, 0.5]])
+    rotations = np.array([np.eye(3), np.diag([-1.0, -1.0, 1.0])])
+    range_m, what = cast_hits(scene, origins, directions, MAX_RANGE_M, rotations)
+    np.testing.assert_array_equal(what, [[3, GROUND, NO_HIT], [NO_HIT, GROUND, NO_HIT]])
+    np.testing.assert_allclose(range_m, [[2.9, 1.0, MAX_RANGE_M], [MAX_RANGE_M, 0.5, MAX_RANGE_M]])
 
 
 def test_maximum_range_cuts():
@@ -199,8 +201,8 @@ def test_normal_of_the_ground():
     x = np.arange(POINTS) * SPACING_M
     scene = scene_of(0.3 * x[None, :] - 0.1 * x[:, None], [])
     expected = unit(np.array([[-0.3, 0.1, 1.0]]))[0]
-    np.testing.assert_allclose(scene.ground_normal(0.1, 0.2), expected)
-    np.testing.assert_allclose(scene.ground_normal(0.2, 0.1), expected)
+    found = scene.ground_normals(np.array([0.1, 0.2]), np.array([0.2, 0.1]))
+    np.testing.assert_allclose(found, [expected, expected])
 
 
 def test_pickles_with_the_same_bits():

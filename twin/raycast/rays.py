@@ -24,20 +24,24 @@ _compiled: Any = njit(cache=True, error_model="numpy", _nrt=False, forceinline=T
 
 @_compiled
 def cast_all(
-    geometry: Geometry, origin: Floats, rotation: Floats, directions: Floats, max_range: float,
+    geometry: Geometry, origins: Floats, rotations: Floats, directions: Floats, max_range: float,
     range_m: Floats, what: NDArray[np.int32],
 ) -> None:  # fmt: skip
-    """Fill range_m (n,) and what (n,) for rays along rotation (3, 3) @ directions (n, 3)."""
-    start = (origin[0], origin[1], origin[2])
-    r = rotation
-    for i in range(directions.shape[0]):
-        x, y, z = directions[i, 0], directions[i, 1], directions[i, 2]
-        direction = (
-            r[0, 0] * x + r[0, 1] * y + r[0, 2] * z,
-            r[1, 0] * x + r[1, 1] * y + r[1, 2] * z,
-            r[2, 0] * x + r[2, 1] * y + r[2, 2] * z,
-        )
-        range_m[i], what[i] = _cast(geometry, start, direction, max_range)
+    """Fill range_m (m, n) and what (m, n) for rays from each of the origins (m, 3).
+
+    Their directions (n, 3) are turned by its rotation, one of (m, 3, 3).
+    """
+    for k in range(origins.shape[0]):
+        start = (origins[k, 0], origins[k, 1], origins[k, 2])
+        r = rotations[k]
+        for i in range(directions.shape[0]):
+            x, y, z = directions[i, 0], directions[i, 1], directions[i, 2]
+            direction = (
+                r[0, 0] * x + r[0, 1] * y + r[0, 2] * z,
+                r[1, 0] * x + r[1, 1] * y + r[1, 2] * z,
+                r[2, 0] * x + r[2, 1] * y + r[2, 2] * z,
+            )
+            range_m[k, i], what[k, i] = _cast(geometry, start, direction, max_range)
 
 
 @_compiled

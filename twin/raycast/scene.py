@@ -39,17 +39,17 @@ class Scene:
         put_lids(ground)
         self.geometry = Geometry(ground, self._solids, sort_into_blocks(ground, self._solids))
 
-    def ground_normal(self, x: float, y: float) -> Floats:
-        """Unit normal (3,), upwards, of the ground's triangle at x, y [m] within the grid."""
-        ground = self.geometry.ground
+    def ground_normals(self, x: Floats, y: Floats) -> Floats:
+        """Unit normals (n, 3), upwards, of the ground's triangles at x, y (n,) [m] in the grid."""
+        ground, z = self.geometry.ground, self.geometry.ground.z
         u, v = (x - ground.x0) / ground.spacing, (y - ground.y0) / ground.spacing
-        j, i = (min(max(int(np.floor(w)), 0), len(ground.z) - 2) for w in (u, v))
-        corner, right, up, across = ground.z[i : i + 2, j : j + 2].ravel()
-        if u - j >= v - i:
-            normal = np.array([corner - right, right - across, ground.spacing])
-        else:
-            normal = np.array([up - across, corner - up, ground.spacing])
-        return normal / np.linalg.norm(normal)
+        j, i = (np.clip(np.floor(w).astype(np.int64), 0, len(z) - 2) for w in (u, v))
+        corner, right, up, across = z[i, j], z[i, j + 1], z[i + 1, j], z[i + 1, j + 1]
+        lower_right = u - j >= v - i
+        fall_x = np.where(lower_right, corner - right, up - across)
+        fall_y = np.where(lower_right, right - across, corner - up)
+        normal = np.stack([fall_x, fall_y, np.full(len(x), ground.spacing)], axis=1)
+        return normal / np.linalg.norm(normal, axis=1, keepdims=True)
 
 
 def cast(
@@ -64,22 +64,24 @@ def cast(
     `rotation` (3, 3) turns the directions into the world frame. A ray that starts inside a solid
     meets its wall from inside; one that starts below the ground has range 0.
     """
-    return cast_hits(scene, origin, directions, max_range, rotation)[0]
+    return cast_hits(scene, origin[None], directions, max_range, rotation[None])[0][0]
 
 
 def cast_hits(
     scene: Scene,
-    origin: Floats,
+    origins: Floats,
     directions: Floats,
     max_range: float,
-    rotation: Floats = _AS_GIVEN,
+    rotations: Floats,
 ) -> tuple[Floats, NDArray[np.int32]]:
-    """As `cast`, and what was hit (n,): index of the obstacle, GROUND or NO_HIT."""
-    origin, rotation, directions = (
-        np.ascontiguousarray(a, dtype=np.float64) for a in (origin, rotation, directions)
+    """As `cast`, from many origins (m, 3), each with its rotation (m, 3, 3): ranges (m, n), and
+    what was hit (m, n): index of the obstacle, GROUND or NO_HIT."""
+    origins, rotations, directions = (
+        np.ascontiguousarray(a, dtype=np.float64) for a in (origins, rotations, directions)
     )
-    range_m, what = np.empty(len(directions)), np.empty(len(directions), np.int32)
-    cast_all(scene.geometry, origin, rotation, directions, float(max_range), range_m, what)
+    shape = len(origins), len(directions)
+    range_m, what = np.empty(shape), np.empty(shape, np.int32)
+    cast_all(scene.geometry, origins, rotations, directions, float(max_range), range_m, what)
     return range_m, what
 
 

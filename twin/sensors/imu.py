@@ -8,6 +8,9 @@ from nav.messages import ImuSample
 from twin.sensors.parameters import ImuParameters
 from twin.sensors.sensor import Floats, View, generator, schedule
 
+Tilt = tuple[float, float]
+"""Roll and pitch, [rad]."""
+
 
 class Imu:
     """Rates and accelerations with bias and noise.
@@ -27,20 +30,27 @@ class Imu:
         self._bias = np.concatenate([sd * self._rng.standard_normal(6), tilt_bias])
         noises = (p.gyro_noise_radps, p.accelerometer_noise_mps2, p.tilt_noise_rad)
         self._noise = np.repeat(noises, (3, 3, 2))
-        self._tilt_error = np.zeros(2)
+        self._tilt_error = (0.0, 0.0)
 
     def measure(self, view: View, time_ns: int) -> ImuSample:
         """The sample of this instant."""
         rate, force = view.imu()
-        tilt = tilt_of(view.site_pose(self.name)[1][2])
-        step = 1.0 / (self._p.rate_hz * self._p.erection_time_s)
-        self._tilt_error = self._tilt_error + step * (tilt_of(force) - tilt - self._tilt_error)
-        said = np.concatenate([rate, force, tilt + self._tilt_error])
+        roll, pitch = self._tilt(tilt_of(view.site_pose(self.name)[1][2]), tilt_of(force))
+        said = np.array([*rate.tolist(), *force.tolist(), roll, pitch])
         said += self._bias + self._noise * self._rng.standard_normal(8)
         return ImuSample(time_ns, said[:3], said[3:6], float(said[6]), float(said[7]))
 
+    def _tilt(self, true: Tilt, apparent: Tilt) -> Tilt:
+        """Let the vertical be erected for one sample; roll and pitch against it."""
+        step = 1.0 / (self._p.rate_hz * self._p.erection_time_s)
+        (roll, pitch), (roll_error, pitch_error) = true, self._tilt_error
+        roll_error += step * (apparent[0] - roll - roll_error)
+        pitch_error += step * (apparent[1] - pitch - pitch_error)
+        self._tilt_error = (roll_error, pitch_error)
+        return roll + roll_error, pitch + pitch_error
 
-def tilt_of(up: Floats) -> Floats:
-    """Roll (left side up) and pitch (nose down) [rad], shape (2,), from "up" in vehicle axes."""
+
+def tilt_of(up: Floats) -> Tilt:
+    """Roll (left side up) and pitch (nose down) [rad] from "up" in vehicle axes (3,)."""
     x, y, z = up.tolist()
-    return np.array([atan2(y, z), atan2(-x, hypot(y, z))])
+    return atan2(y, z), atan2(-x, hypot(y, z))

@@ -1,6 +1,7 @@
 """Ultrasonic rangers: the nearest echo within a cone."""
 
 import numpy as np
+from numpy.typing import NDArray
 
 from nav.messages import SonarScan
 from twin.raycast import GROUND, Scene, cast_hits
@@ -32,25 +33,30 @@ class Sonar:
     def measure(self, view: View, time_ns: int) -> SonarScan:
         """The round of this instant."""
         p = self._p
-        true_m = np.array([self._nearest(view, unit) for unit in p.units])
+        true_m = self._nearest(view)
         noise_m = p.noise_sd_m * self._rng.standard_normal(len(true_m))
         heard_m = np.clip(true_m + noise_m, p.min_range_m, p.max_range_m)
         return SonarScan(time_ns, np.where(true_m < p.max_range_m, heard_m, p.max_range_m))
 
-    def _nearest(self, view: View, unit: str) -> float:
-        position, rotation = self._mountings[unit].pose(view, f"sonar_{unit}")
+    def _nearest(self, view: View) -> Floats:
+        """Distance (n,) [m] of what throws each unit's first echo."""
+        poses = [m.pose(view, f"sonar_{unit}") for unit, m in self._mountings.items()]
+        origins, rotations = (np.array(part) for part in zip(*poses, strict=True))
         limit = self._p.max_range_m
-        range_m, what = cast_hits(self._scene, position, self._cone, limit, rotation)
-        for i in range(len(what)):
-            if what[i] == GROUND and not self._ground_echoes(position, rotation, i, range_m[i]):
-                range_m[i] = limit
-        return float(range_m.min())
+        range_m, what = cast_hits(self._scene, origins, self._cone, limit, rotations)
+        unit, ray = np.nonzero(what == GROUND)
+        if len(unit):
+            directions = np.einsum("kij,kj->ki", rotations[unit], self._cone[ray])
+            points = origins[unit] + range_m[unit, ray, None] * directions
+            mirrored = ~self._ground_echoes(points, directions)
+            range_m[unit[mirrored], ray[mirrored]] = limit
+        return range_m.min(axis=1)
 
-    def _ground_echoes(self, position: Floats, rotation: Floats, ray: int, range_m: float) -> bool:
-        direction = rotation @ self._cone[ray]
-        point = position + range_m * direction
-        normal = self._scene.ground_normal(point[0], point[1])
-        return bool(-direction @ normal >= np.sin(self._p.ground_echo_rad))
+    def _ground_echoes(self, points: Floats, directions: Floats) -> NDArray[np.bool_]:
+        """Whether the ground throws an echo (n,), where rays meet it at points (n, 3)."""
+        normals = self._scene.ground_normals(points[:, 0], points[:, 1])
+        steepness = -np.sum(directions * normals, axis=1)
+        return steepness >= np.sin(self._p.ground_echo_rad)
 
 
 def _cone(half_angle_rad: float) -> Floats:
