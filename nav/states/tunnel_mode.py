@@ -8,10 +8,8 @@ from nav.messages import Floats
 from nav.parameters import Parameters
 from nav.parameters.states import TunnelParameters
 from nav.planning.angles import wrapped
-from nav.planning.boundaries import REAL
 from nav.planning.curve import Curve, sampled
-from nav.planning.local_path import path_length, pathpoints
-from nav.planning.scanning import discs, free_distance
+from nav.planning.local_path import clear_distances, path_length, pathpoints
 from nav.planning.speed import set_point
 from nav.states.memory import Memory
 from nav.states.situation import Plan, Situation
@@ -41,7 +39,7 @@ def plan(s: Situation, memory: Memory, p: Parameters) -> Plan:
     """A straight path that comes back to the line between the walls."""
     memory.axis = _axis(s, memory, p)
     path = _to_axis(s, memory.axis)
-    clear = _clear(path, s, p)
+    clear = clear_distances(path, s.boundaries, p.planning.footprint).touch_m
     memory.follow(pathpoints(path, path_length(s.ego.speed_mps, p.planning.local_path)), s.waypoint)
     assert memory.pathpoint_m is not None
     limit = min(s.V0_mps, p.states.tunnel.speed_mps)
@@ -99,9 +97,3 @@ def _to_axis(s: Situation, axis: Axis) -> Curve:
     x = axis[0] + c * (along + arc) - sn * left
     y = axis[1] + sn * (along + arc) + c * left
     return sampled(np.stack([x, y], axis=1))
-
-
-def _clear(path: Curve, s: Situation, p: Parameters) -> float:
-    centres = discs(path.position_m, path.heading_rad, p.planning.footprint)
-    level = s.boundaries.at(centres[..., 0], centres[..., 1])[:, -1][None, :]
-    return float(free_distance(level, path.arc_m, REAL)[0])
