@@ -4,9 +4,12 @@ import numpy as np
 import pytest
 
 from nav.messages import Decision, EgoEstimate
+from nav.route.corridor import depth
 from nav.route.geodesy import Frame
+from nav.route.waypoints import Waypoints
 from scenarios.course import Course, Gate
 from scenarios.verdicts import Judge
+from scenarios.verdicts.corridor import segments
 from scenarios.verdicts.shapes import Outline, bottom_m, distances_m, footprints
 from scenarios.verdicts.tracking import line_offset_m
 from twin.truth import Truth
@@ -321,3 +324,18 @@ def test_the_shadow_of_a_tilted_box():
     found = distances_m(OUTLINE, (0.0, 0.0, 0.0), footprints([tilted]))[0]
     assert found == pytest.approx(4.0 - reach - 2.10)
     assert bottom_m(tilted) == pytest.approx(1.0 - math.sin(angle) - math.cos(angle) * 0.2)
+
+
+def test_what_a_segment_holds_lies_in_the_corridor():
+    """The quick look before the thorough one never says more than that would."""
+    rng = np.random.default_rng(0)
+    corners = np.array([(0.0, 0.0), (30.0, 5.0), (50.0, -20.0), (80.0, -20.0)])
+    waypoints = Waypoints(corners, np.array([3.0, 5.0, 2.0, 2.0]), np.full(4, 5.0))
+    point_m = rng.uniform((-10.0, -30.0), (90.0, 15.0), (3000, 2))
+    for k, segment in enumerate(segments(waypoints)):
+        held = np.array([segment.holds([point]) for point in point_m.tolist()])
+        deep = depth(point_m, waypoints, k, k) >= 0.0
+        along = (point_m - corners[k]) @ (segment.cos, segment.sin)
+        beside = (along >= 0.0) & (along <= segment.length_m)
+        np.testing.assert_array_equal(held, deep & beside)
+        assert held.any()

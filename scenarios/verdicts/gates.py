@@ -13,7 +13,10 @@ from scenarios.course import Gate
 from scenarios.verdicts.shapes import Outline, Pose
 
 NEAR_M = 15.0
-"""Gates farther from the reference point than this are not looked at."""
+"""Gates farther from the reference point than this, along x or y, are not looked at."""
+LISTED_M = 20.0
+"""Those nearer than this are listed; the list is made anew where the vehicle has gone on by the
+difference."""
 
 
 class _Line(NamedTuple):
@@ -44,10 +47,17 @@ class GateKeeper:
 
     def __post_init__(self) -> None:
         self._lines = [_line(gate) for gate in self.gates]
+        self._listed: list[int] = []
+        self._listed_at: Pose = (math.inf, math.inf, 0.0)
 
     def observe(self, pose: Pose) -> None:
         """Take the pose of the reference point."""
-        near = [k for k in range(self._next, len(self._lines)) if self._is_near(k, pose)]
+        if not _is_near(self._listed_at, pose, LISTED_M - NEAR_M):
+            self._listed = [k for k, at in enumerate(self._lines) if _is_near(at, pose, LISTED_M)]
+            self._listed_at = pose
+        near = [
+            k for k in self._listed if k >= self._next and _is_near(self._lines[k], pose, NEAR_M)
+        ]
         if near:
             corners = self.outline.corners_m(pose)
             for k in near:
@@ -57,10 +67,6 @@ class GateKeeper:
         """Gates behind the vehicle that it did not pass."""
         behind = len(self.gates) if all_behind else self._next
         return [k for k in range(behind) if k not in self.passed]
-
-    def _is_near(self, k: int, pose: Pose) -> bool:
-        line = self._lines[k]
-        return abs(pose[0] - line.x) < NEAR_M and abs(pose[1] - line.y) < NEAR_M
 
     def _follow(self, k: int, corners: list[tuple[float, float]]) -> None:
         """Take the outline's corners in the frame of gate k."""
@@ -72,6 +78,11 @@ class GateKeeper:
         elif k in self._before and k >= self._next:
             self.passed.append(k)
             self._next = k + 1
+
+
+def _is_near(place: _Line | Pose, pose: Pose, reach_m: float) -> bool:
+    """Whether x and y are each within reach."""
+    return abs(pose[0] - place[0]) < reach_m and abs(pose[1] - place[1]) < reach_m
 
 
 def _line(gate: Gate) -> _Line:

@@ -27,6 +27,11 @@ class Outline(NamedTuple):
     rear_m: float = -0.95
     half_width_m: float = 0.762
 
+    @property
+    def middle_m(self) -> float:
+        """x of the rectangle's centre."""
+        return 0.5 * (self.front_m + self.rear_m)
+
     def nose_m(self, pose: Pose) -> tuple[float, float]:
         """The middle of the bumper in the world."""
         x, y, heading = pose
@@ -73,24 +78,27 @@ def distances_m(outline: Outline, pose: Pose, shapes: Footprints) -> Floats:
     Returns:
         Shape (n,), [m].
     """
-    local = _to_center(outline, pose, shapes.corner_m)
-    half_length = 0.5 * (outline.front_m - outline.rear_m)
-    return _distances(half_length, outline.half_width_m, local, shapes.radius_m)
-
-
-def _to_center(outline: Outline, pose: Pose, point_m: Floats) -> Floats:
-    """World points in the frame of the outline's centre."""
     x, y, heading = pose
-    c, s, middle = math.cos(heading), math.sin(heading), 0.5 * (outline.front_m + outline.rear_m)
-    center = np.array([x + c * middle, y + s * middle])
-    return (point_m - center) @ np.array([[c, -s], [s, c]])
+    c, s = math.cos(heading), math.sin(heading)
+    middle, half_length_m = outline.middle_m, 0.5 * (outline.front_m - outline.rear_m)
+    center = (x + c * middle, y + s * middle)
+    return _distances((half_length_m, outline.half_width_m), center, (c, s), *shapes)
 
 
 @njit(cache=True)
-def _distances(hx: float, hy: float, polygons: Floats, radius_m: Floats) -> Floats:
-    distance = np.empty(len(polygons))
-    for i in range(len(polygons)):
-        distance[i] = max(_rectangle_to_polygon(hx, hy, polygons[i]) - radius_m[i], 0.0)
+def _distances(
+    half: tuple[float, float], center: tuple[float, float], turn: tuple[float, float],
+    corner_m: Floats, radius_m: Floats,
+) -> Floats:  # fmt: skip
+    """From a rectangle at `center`, whose x axis is along `turn`, to each shape."""
+    (c, s), local = turn, np.empty((CORNERS, 2))
+    distance = np.empty(len(radius_m))
+    for i in range(len(radius_m)):
+        for k in range(CORNERS):
+            dx, dy = corner_m[i, k, 0] - center[0], corner_m[i, k, 1] - center[1]
+            local[k, 0], local[k, 1] = c * dx + s * dy, c * dy - s * dx
+        gap = _rectangle_to_polygon(half[0], half[1], local)
+        distance[i] = max(gap - radius_m[i], 0.0)
     return distance
 
 
