@@ -29,7 +29,8 @@ def load(cls, name):
     return from_toml(cls, (FOLDER / name).read_text(), name)
 
 
-PARAMETERS = load(EgoParameters, "ego_state.toml")
+# the synthetic gyro keeps its vertical; what erection does to one is tested in test_erection.py
+PARAMETERS = replace(load(EgoParameters, "ego_state.toml"), erection_s=1e9)
 VEHICLE = load(VehicleParameters, "vehicle.toml")
 
 

@@ -24,7 +24,7 @@ def ramp(x, low, high):
 
 
 def distance_sets(x):
-    danger, small, large = 1 - ramp(x, 2, 4), 1 - ramp(x, 5, 12), ramp(x, 12, 29)
+    danger, small, large = 1 - ramp(x, 4, 6), 1 - ramp(x, 7, 13), ramp(x, 13, 29)
     return {
         "DA": danger,
         "S": min(1 - danger, small),
@@ -107,7 +107,7 @@ def test_more_distance_never_means_less_speed_along_the_diagonal():
 
 
 def test_every_rule_is_told_with_its_strength():
-    decision = set_point(34.0, 4.5, 0.0, 9.0, "safe", PARAMETERS)
+    decision = set_point(34.0, 6.5, 0.0, 9.0, "safe", PARAMETERS)
     assert decision.anti_collision_rules["D1_m is L and D_m is S -> MS"] == 1.0
     assert sum(decision.anti_collision_rules.values()) == 1.0
     assert decision.safe_steering_rules["delta_theta_rad is S -> L"] == 1.0
@@ -133,7 +133,7 @@ def test_any_input_fires_a_rule_and_stays_within_limits(D1, D, turn, V0, selecte
 @pytest.mark.parametrize(
     ("right", "wrong", "message"),
     [
-        ("safe_distance_m = 1.5", "safe_distance_m = 2.5", "safe_distance_m: 2.5 must lie where"),
+        ("safe_distance_m = 1.5", "safe_distance_m = 4.5", "safe_distance_m: 4.5 must lie where"),
         ("STOP = 0.0", "STOP = 1.0", "STOP: must be there and be 0"),
         ("narrow_mps = 3.0", "narrow_mps = -3.0", "narrow_mps: -3 must not be negative"),
         ("delta_theta_rad", "turn_rad", "safe_steering.inputs: are turn_rad; expected delta_theta"),

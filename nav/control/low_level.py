@@ -81,7 +81,7 @@ class LowLevelController:
         ready = vehicle.gear == Gear.HIGH and not vehicle.shifting
         set_point = self.command.speed_mps if ready else 0.0
         if abs(steering - vehicle.steering_rad) > self.parameters.steering_lag_rad:
-            set_point = min(set_point, self.parameters.steering_lag_mps)
+            set_point = min(set_point, max(ego.speed_mps, self.parameters.steering_lag_mps))
         throttle, brake = self.speed.step(set_point, ego.speed_mps, TICK_S)
         return self._limited(time_ns, steering, throttle, brake)
 

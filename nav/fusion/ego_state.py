@@ -28,6 +28,7 @@ from nav.fusion.ego_kinematics import (
     wrapped,
 )
 from nav.fusion.ego_start import Start
+from nav.fusion.erection import Erection
 from nav.fusion.scan_geometry import Pose
 from nav.messages import (
     CompassHeading,
@@ -90,6 +91,7 @@ class EgoState:
         self._start: Start | None = Start(parameters, crew_heading_rad)
         self._last = _Last(Attitude())
         self._drive = Drive()
+        self._erection = Erection(parameters.erection_s)
         self._first_ns: int | None = None
         self._started_ns = 0
         self._time_ns = 0
@@ -168,10 +170,21 @@ class EgoState:
         self._time_ns = time_ns
 
     def _take_imu(self, sample: ImuSample) -> None:
-        attitude = attitude_of(sample)
+        attitude = self._upright(attitude_of(sample), sample.time_ns)
         self._last.attitude, self._last.imu_ns = attitude, sample.time_ns
         yaw_q = self.parameters.motion.gyro_radps**2
         self._drive = Drive(heading_rate(attitude), True, math.cos(attitude.pitch_rad), yaw_q)
+
+    def _upright(self, measured: Attitude, time_ns: int) -> Attitude:
+        """Without what the accelerations have done to the gyro's vertical."""
+        if self._start is None and self._last.imu_ns is not None:
+            sideward = float(self.filter.state[SPEED]) * heading_rate(measured)
+            dt_s = (time_ns - self._last.imu_ns) * 1e-9
+            self._erection.follow(sideward, self._last.acceleration_mps2, dt_s)
+        return measured._replace(
+            roll_rad=measured.roll_rad - self._erection.roll_rad,
+            pitch_rad=measured.pitch_rad - self._erection.pitch_rad,
+        )
 
     def _imu_speaks(self, time_ns: int) -> bool:
         last = self._last.imu_ns

@@ -14,6 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from nav.errors import NavError
+from nav.fusion.bumps import bumps
 from nav.fusion.ground_profile import GroundProfile
 from nav.fusion.lattice import Ints, Lattice
 from nav.fusion.scan_geometry import Pose, level_points, placed, scan_geometry
@@ -62,6 +63,7 @@ class ObstacleMap:
         self._sonar_arcs = _sonar_arcs(vehicle)
         self._sonar_min_m = vehicle.sonar.min_range_m
         self._footprint = _footprint(vehicle.outline, parameters.cell_m)
+        self._bare = np.zeros(0, np.int64)
         self._time_ns: int | None = None
         self._placed = False
 
@@ -175,11 +177,20 @@ class ObstacleMap:
         obstacle, ground, coarse = self.ground.classify(points, distance)
         steep = rise < -p.ground.teaching_slope
         near = distance < p.ground.teaching_range_m
+        bump = np.concatenate([bumps(part[2], p.ground.bump_beams) for part, _ in parts])
+        stands_out = steep & ground & (bump > p.ground.bump_m)
+        obstacle, ground = obstacle | stands_out, ground & ~stands_out
+        self._see_bare(points[:2, steep & near & (np.abs(bump) < p.ground.flat_m) & ground])
         self.ground.learn(coarse, points[2], ground & steep & near, obstacle)
         # a steep beam's height is uncertain: what only such beams have seen (a bale) counts as so
         # low that a level beam, which passes over it, does not deny it
         height = points[2] - np.where(steep, p.ground.tilt_rad * distance, 0.0)
         return self._gather(points[:2, obstacle], height[obstacle])
+
+    def _see_bare(self, place: Floats) -> None:
+        """Cells in which a steep beam has met ground in this tick."""
+        index, inside = self.lattice.index(place[0], place[1])
+        self._bare = index[inside]
 
     def _gather(self, place: Floats, height_m: Floats) -> Ints:
         index, inside = self.lattice.index(place[0], place[1])
@@ -211,7 +222,9 @@ class ObstacleMap:
         place = np.stack([x, y, top - self.ground.vehicle_m])
         p = self.parameters.confidence
         through, beside = look(views, place, p.margin_m)
-        rate = np.where(through, p.clear_ps, np.where(beside, p.fade_ps, 0.0))
+        bare = np.zeros(cells.size, bool)
+        bare[self._bare] = True
+        rate = np.where(through | bare[index], p.clear_ps, np.where(beside, p.fade_ps, 0.0))
         left = np.maximum(cells[index] - rate * elapsed_s, 0.0)
         cells[index] = left
         self._top.ravel()[index[left == 0.0]] = _NO_TOP_M

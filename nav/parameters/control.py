@@ -48,6 +48,6 @@ class ControlParameters:
     steering_lag_rad: float
     """While the road wheels are farther than this from their target ..."""
     steering_lag_mps: float
-    """... the vehicle goes no faster than this: it would leave its path."""
+    """... the vehicle gets no faster than it is, or than this: it would leave its path."""
     command_timeout_s: float
     """Without a fresh command of the high-level controller the vehicle stops."""

@@ -99,6 +99,8 @@ class EgoParameters:
 
     imu_patience_s: float
     """An IMU silent for longer is missing: the steering angle stands in."""
+    erection_s: float
+    """Time in which the vertical gyro erects its vertical."""
     motion: Motion
     wheels: Wheels
     gps: Gps

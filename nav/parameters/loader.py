@@ -70,7 +70,8 @@ def _tuple(kinds: tuple[Any, ...], value: Any, path: str) -> tuple[Any, ...]:
         kinds = (kinds[0],) * len(items)
     if len(items) != len(kinds):
         raise ParameterError(f"{path}: has {len(items)} values, expected {len(kinds)}")
-    return tuple(_value(k, v, f"{path}[{i}]") for i, (k, v) in enumerate(zip(kinds, items, strict=True)))
+    pairs = enumerate(zip(kinds, items, strict=True))
+    return tuple(_value(k, v, f"{path}[{i}]") for i, (k, v) in pairs)
 
 
 def _expect(kind: Any, value: Any, path: str) -> Any:

@@ -21,6 +21,12 @@ class GroundParameters:
     teaching_slope: float
     """Only beams that fall at least this much per metre teach the ground."""
     teaching_range_m: float
+    bump_m: float
+    """What stands this high out of its own scan is no ground, however the scan is tilted."""
+    flat_m: float
+    """What stands out no higher is bare ground: the foot of a bale is none."""
+    bump_beams: int
+    """To either side of a beam: a bump is narrower than these."""
     doubt_m: float
     """How far a known height may exceed what the ground around it lets expect."""
     gain: float
