@@ -44,6 +44,7 @@ class HighLevelController:
     def __init__(self, parameters: Parameters, waypoints: Waypoints) -> None:
         self.parameters = parameters
         self.waypoints = waypoints
+        self._corridor_m = _with_run_out(waypoints.position_m)
         self.route: SmoothPath = smooth_path(waypoints)
         self.V0: Floats = speed_profile(self.route, parameters.planning.speed)
         self.machine = Machine(parameters)
@@ -111,12 +112,13 @@ class HighLevelController:
         """How far inside the corridor each cell lies; redrawn when map or segment have moved."""
         segment = int(self.route.segment[self.here.index])
         end = int(np.searchsorted(self.route.arc_m, self.here.arc_m + CORRIDOR_AHEAD_M))
-        last = int(self.route.segment[min(end, len(self.route.arc_m) - 1)]) + 1
+        finish = end >= len(self.route.arc_m)
+        last = int(self.route.segment[-1]) + 2 if finish else int(self.route.segment[end]) + 1
         first = max(0, segment - CORRIDOR_BEHIND)
         key = (obstacles.origin_m, first, last)
         if self._corridor is None or self._corridor[0] != key:
-            w = self.waypoints
-            drawn = corridor_distance(obstacles.lattice, w.position_m, w.half_width_m, first, last)
+            width = self.waypoints.half_width_m
+            drawn = corridor_distance(obstacles.lattice, self._corridor_m, width, first, last)
             self._corridor = (key, drawn)
         return self._corridor[1]
 
@@ -136,3 +138,10 @@ class HighLevelController:
             speed_mps=plan.speed_mps,
             cross_track_m=s.cross_track_m,
         )
+
+
+def _with_run_out(position_m: Floats) -> Floats:
+    """Waypoints (n, 2) and one more, straight on: the finish is no wall, one drives through it."""
+    last = position_m[-1] - position_m[-2]
+    ahead = last / np.hypot(last[0], last[1]) * CORRIDOR_AHEAD_M
+    return np.vstack([position_m, position_m[-1] + ahead])
