@@ -7,6 +7,7 @@ from nav.admission import Admission
 from nav.control.low_level import LowLevelController
 from nav.fusion.ego_state import EgoState
 from nav.fusion.obstacle_map import ObstacleMap
+from nav.fusion.scan_geometry import Pose
 from nav.high_level import HighLevelController, Senses
 from nav.messages import (
     EgoEstimate,
@@ -45,7 +46,7 @@ class IonNavigator:
         self.high_level = HighLevelController(parameters, waypoints)
         self.low_level = LowLevelController(parameters.control, parameters.vehicle.steering)
         self.calls = 0
-        self._scans: list[LidarScan] = []
+        self._scans: list[tuple[LidarScan, Pose]] = []
         self._sonar: SonarScan | None = None
         self._vehicle: VehicleState | None = None
         self._ready_ns: int | None = None
@@ -66,7 +67,7 @@ class IonNavigator:
 
     def _take(self, message: SensorMessage) -> None:
         if isinstance(message, LidarScan):
-            self._scans.append(message)
+            self._scans.append((message, self.ego.pose_at(message.time_ns)))
             return
         if isinstance(message, SonarScan):
             self._sonar = message
@@ -94,7 +95,7 @@ class IonNavigator:
         """Bring the map up to date with all scans since the last decision."""
         x, y = (float(v) for v in ego.position_m)
         self.obstacles.recenter(x, y)
-        self.obstacles.integrate([(scan, self.ego.pose_at(scan.time_ns)) for scan in self._scans])
+        self.obstacles.integrate(self._scans)
         self._scans.clear()
         if self._sonar and time_ns - self._sonar.time_ns < STALE_NS:
             pose = self.ego.pose_at(self._sonar.time_ns)

@@ -8,6 +8,7 @@ import math
 from dataclasses import dataclass
 
 from nav.fusion import ego_gps
+from nav.fusion.attitude_history import AttitudeHistory
 from nav.fusion.ego_filter import (
     COMPASS_BIAS,
     GYRO_BIAS,
@@ -92,6 +93,7 @@ class EgoState:
         self._last = _Last(Attitude())
         self._drive = Drive()
         self._erection = Erection(parameters.erection_s)
+        self._attitudes = AttitudeHistory()
         self._first_ns: int | None = None
         self._started_ns = 0
         self._time_ns = 0
@@ -144,7 +146,7 @@ class EgoState:
         turn = self.filter.yaw_rate(self._drive) * dt
         way = v * dt * self._drive.cos_pitch
         middle = heading + 0.5 * turn
-        a = self._last.attitude.at(dt)
+        a = self._attitudes.at(time_ns)
         x, y = x + way * math.cos(middle), y + way * math.sin(middle)
         return Pose(x, y, wrapped(heading + turn), a.roll_rad, a.pitch_rad)
 
@@ -172,6 +174,7 @@ class EgoState:
     def _take_imu(self, sample: ImuSample) -> None:
         attitude = self._upright(attitude_of(sample), sample.time_ns)
         self._last.attitude, self._last.imu_ns = attitude, sample.time_ns
+        self._attitudes.add(sample.time_ns, attitude)
         yaw_q = self.parameters.motion.gyro_radps**2
         self._drive = Drive(heading_rate(attitude), True, math.cos(attitude.pitch_rad), yaw_q)
 
@@ -194,7 +197,7 @@ class EgoState:
 
     def _take_wheels(self, state: VehicleState) -> None:
         if not self._imu_speaks(state.time_ns):
-            self._drive_by_steering(state.steering_rad)
+            self._drive_by_steering(state.time_ns, state.steering_rad)
         if state.gear is not Gear.NEUTRAL and not state.shifting:
             self._last.direction = -1.0 if state.gear is Gear.REVERSE else 1.0
         wheels = [self._last.direction * w for w in state.wheel_speed_mps.tolist()]
@@ -207,11 +210,12 @@ class EgoState:
                 self._correct_speed(state.time_ns, speed)
             self._last.accelerate(state.time_ns, float(self.filter.state[SPEED]))
 
-    def _drive_by_steering(self, steering_rad: float) -> None:
+    def _drive_by_steering(self, time_ns: int, steering_rad: float) -> None:
         speed = float(self.filter.state[SPEED])
         rate = speed * curvature(steering_rad, self.vehicle.steering)
         yaw_q = (self.parameters.motion.steering_per_m * speed) ** 2
         self._last.attitude = Attitude(rate_radps=(0.0, 0.0, rate))
+        self._attitudes.add(time_ns, self._last.attitude)
         self._drive = Drive(rate, False, 1.0, yaw_q)
 
     def _correct_speed(self, time_ns: int, speed_mps: float) -> None:
@@ -248,7 +252,7 @@ class EgoState:
         pose = self.pose_at(time_ns)
         level_speed = self._drive.cos_pitch * float(self.filter.state[SPEED])
         speed = level_speed - self._last.acceleration_mps2 * age
-        attitude = self._last.attitude.at(-age)
+        attitude = self._attitudes.at(time_ns)
         return ego_gps.Past(pose.x_m, pose.y_m, pose.heading_rad, speed, attitude, age)
 
     def _take_compass(self, compass: CompassHeading) -> None:
