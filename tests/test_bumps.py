@@ -30,4 +30,4 @@ def test_what_is_wider_than_the_window_is_ground():
 def test_a_valley_has_no_bumps_and_few_returns_are_no_error():
     np.testing.assert_allclose(bumps(np.abs(BEAMS - 180) * 0.02, 16), 0.0, atol=1e-12)
     assert bumps(np.zeros(0), 16).shape == (0,)
-    assert bumps(np.zeros(3), 16).shape == (3,)
+    np.testing.assert_array_equal(bumps(np.arange(3.0), 16), 0.0)

@@ -177,7 +177,7 @@ class ObstacleMap:
         obstacle, ground, coarse = self.ground.classify(points, distance)
         steep = rise < -p.ground.teaching_slope
         near = distance < p.ground.teaching_range_m
-        bump = np.concatenate([bumps(part[2], p.ground.bump_beams) for part, _ in parts])
+        bump = np.concatenate([self._bumps(part[2], each) for part, each in parts])
         stands_out = steep & ground & (bump > p.ground.bump_m)
         obstacle, ground = obstacle | stands_out, ground & ~stands_out
         self._see_bare(points[:2, steep & near & (np.abs(bump) < p.ground.flat_m) & ground])
@@ -186,6 +186,12 @@ class ObstacleMap:
         # low that a level beam, which passes over it, does not deny it
         height = points[2] - np.where(steep, p.ground.tilt_rad * distance, 0.0)
         return self._gather(points[:2, obstacle], height[obstacle])
+
+    def _bumps(self, height_m: Floats, rise: Floats) -> Floats:
+        """What stands out of a scan that looks down at the ground; level scans tell nothing."""
+        p = self.parameters.ground
+        looks_down = len(rise) > 0 and float(rise.mean()) < -p.teaching_slope
+        return bumps(height_m, p.bump_beams) if looks_down else np.zeros(len(rise))
 
     def _see_bare(self, place: Floats) -> None:
         """Cells in which a steep beam has met ground in this tick."""

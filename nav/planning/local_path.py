@@ -42,7 +42,7 @@ def route_ahead(
         join_m: ... and takes this way; 0 where the vehicle is on the path.
     """
     first = min(index, len(route.arc_m) - 2)
-    end = int(np.searchsorted(route.arc_m, route.arc_m[first] + AHEAD_M)) + 1
+    end = int(np.searchsorted(route.arc_m, float(route.arc_m[first]) + AHEAD_M)) + 1
     part = slice(first, max(end, first + 2))
     position, heading = route.position_m[part], route.heading_rad[part]
     if join_m > 0.0:
