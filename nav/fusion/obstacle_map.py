@@ -172,12 +172,14 @@ class ObstacleMap:
         """Sort the returns; obstacles gain in `_gain` and `_top`. Returns their cells."""
         p = self.parameters
         parts = [level_points(*view, p.max_range_m) for view in views]
-        points, rise = (np.concatenate(each, axis=-1) for each in zip(*parts, strict=True))
+        points = np.concatenate(parts, axis=-1)
         distance = np.hypot(points[0] - pose.x_m, points[1] - pose.y_m)
         obstacle, ground, coarse = self.ground.classify(points, distance)
-        steep = rise < -p.ground.teaching_slope
+        down = [self._looks_down(view) for view in views]
+        steep = np.repeat(down, [part.shape[1] for part in parts])
         near = distance < p.ground.teaching_range_m
-        bump = np.concatenate([self._bumps(part[2], each) for part, each in parts])
+        scans = zip(parts, down, strict=True)
+        bump = np.concatenate([self._bumps(part[2], is_down) for part, is_down in scans])
         stands_out = steep & ground & (bump > p.ground.bump_m)
         obstacle, ground = obstacle | stands_out, ground & ~stands_out
         self._see_bare(points[:2, steep & near & (np.abs(bump) < p.ground.flat_m) & ground])
@@ -187,11 +189,15 @@ class ObstacleMap:
         height = points[2] - np.where(steep, p.ground.tilt_rad * distance, 0.0)
         return self._gather(points[:2, obstacle], height[obstacle])
 
-    def _bumps(self, height_m: Floats, rise: Floats) -> Floats:
-        """What stands out of a scan that looks down at the ground; level scans tell nothing."""
-        p = self.parameters.ground
-        looks_down = len(rise) > 0 and float(rise.mean()) < -p.teaching_slope
-        return bumps(height_m, p.bump_beams) if looks_down else np.zeros(len(rise))
+    def _looks_down(self, view: View) -> bool:
+        """Whether a scanner is mounted to look at the ground ahead: only such a one teaches it. The
+        others meet ground when the vehicle rolls, far away and with errors of their own."""
+        return bool(view.geometry.axes[2, 0] < -self.parameters.ground.teaching_slope)
+
+    def _bumps(self, height_m: Floats, looks_down: bool) -> Floats:
+        """What stands out of a scan of the ground; level scans tell nothing."""
+        beams = self.parameters.ground.bump_beams
+        return bumps(height_m, beams) if looks_down else np.zeros(len(height_m))
 
     def _see_bare(self, place: Floats) -> None:
         """Cells in which a steep beam has met ground in this tick."""

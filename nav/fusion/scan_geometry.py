@@ -107,7 +107,7 @@ def placed(geometry: ScanGeometry, pose: Pose) -> Placed:
 
 def level_points(
     geometry: ScanGeometry, scanner: Placed, range_m: Floats, max_range_m: float
-) -> tuple[Floats, Floats]:
+) -> Floats:
     """Returns of one scan in the level frame, without our own outline.
 
     Args:
@@ -117,9 +117,9 @@ def level_points(
         max_range_m: farther returns are left out, as are beams without one.
 
     Returns:
-        Points, shape (3, m), [m], and the beams' vertical component, shape (m,).
+        Points, shape (3, m), [m].
     """
     far = min(max_range_m, NO_RETURN_M)
     hit = np.flatnonzero((range_m > geometry.exit_m) & (range_m < far))
     direction = scanner.turn @ geometry.direction.take(hit, axis=1)
-    return direction * range_m.take(hit) + scanner.origin_m[:, None], direction[2]
+    return direction * range_m.take(hit) + scanner.origin_m[:, None]
