@@ -16,11 +16,11 @@ from nav.planning.curve import Curve
 from nav.planning.local_path import clear_distances, join_length, route_ahead
 from nav.planning.scanning import Boundaries
 from nav.planning.speed_profile import speed_profile
-from nav.planning.steering_circle import curvature_rate
 from nav.route.smooth_path import Projection, SmoothPath, project, smooth_path
 from nav.route.waypoints import Waypoints
 from nav.states.machine import Machine
 from nav.states.situation import Plan, Situation
+from nav.steering_circle import curvature_rate
 
 CORRIDOR_BEHIND = 2
 """The corridor is drawn from this many segments behind the present one ..."""

@@ -10,7 +10,7 @@ from nav.control.low_level import LowLevelController
 from nav.control.speed import SpeedController
 from nav.messages import EgoEstimate, FollowPath, Gear, VehicleState
 from nav.parameters import parameters_from
-from nav.planning.steering_circle import curvature, steering_angle
+from nav.steering_circle import curvature, steering_angle
 from scenarios.parameter_files import parameter_texts
 
 P = parameters_from(parameter_texts())

@@ -1,5 +1,4 @@
 from pathlib import Path
-from time import process_time
 
 import numpy as np
 import pytest
@@ -158,9 +157,7 @@ def test_projection_takes_any_index():
 @real_data
 def test_the_real_race_has_no_loop_and_few_tight_spots():
     route = gc04()
-    started = process_time()
     path = smooth_path(route)
-    assert process_time() - started < 3.0
     step = np.diff(path.arc_m)
     assert 0.0 < step.min() <= step.max() <= 0.5
     assert path.arc_m[-1] == pytest.approx(229_000, rel=0.01)

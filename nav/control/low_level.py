@@ -17,7 +17,7 @@ from nav.messages import (
 from nav.parameters.control import ControlParameters
 from nav.parameters.vehicle import Steering
 from nav.planning.curve import Curve, curve_through
-from nav.planning.steering_circle import steering_angle
+from nav.steering_circle import steering_angle
 
 TICK_S = 0.02
 

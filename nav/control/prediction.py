@@ -11,7 +11,7 @@ from typing import NamedTuple
 
 from nav.messages import EgoEstimate
 from nav.parameters.vehicle import Steering
-from nav.planning.steering_circle import curvature
+from nav.steering_circle import curvature
 
 
 class Prediction(NamedTuple):

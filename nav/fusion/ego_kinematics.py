@@ -4,7 +4,7 @@ import math
 from typing import NamedTuple
 
 from nav.messages import ImuSample
-from nav.parameters.vehicle import Steering, VehicleParameters
+from nav.parameters.vehicle import VehicleParameters
 
 
 class Attitude(NamedTuple):
@@ -31,14 +31,6 @@ def heading_rate(attitude: Attitude) -> float:
     _, q, r = attitude.rate_radps
     roll, pitch = attitude.roll_rad, attitude.pitch_rad
     return (math.sin(roll) * q + math.cos(roll) * r) / math.cos(pitch)
-
-
-def curvature(steering_rad: float, steering: Steering) -> float:
-    """Path curvature [1/m] of a road-wheel angle: the inverse of the measured turning circle."""
-    share = min(abs(steering_rad) / steering.limit_rad, 1.0)
-    a, b = steering.quadratic_m2, steering.linear_m
-    k = 2.0 * share / (b + math.sqrt(max(b * b + 4.0 * a * share, 0.0)))
-    return math.copysign(k, steering_rad)
 
 
 def speed_of_wheels(

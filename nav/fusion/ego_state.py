@@ -22,7 +22,6 @@ from nav.fusion.ego_filter import (
 from nav.fusion.ego_kinematics import (
     Attitude,
     attitude_of,
-    curvature,
     heading_rate,
     level,
     speed_of_wheels,
@@ -44,6 +43,7 @@ from nav.messages import (
 from nav.parameters.ego_state import EgoParameters
 from nav.parameters.vehicle import VehicleParameters
 from nav.route.geodesy import Frame
+from nav.steering_circle import curvature
 
 ACCELERATION_S = 0.2
 """Time constant of the acceleration that carries the speed back to a delayed fix."""

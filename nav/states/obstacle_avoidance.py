@@ -14,10 +14,10 @@ from nav.planning.local_path import path_length, pathpoints, towards
 from nav.planning.scanning import Turning, fan, scan
 from nav.planning.speed import set_point
 from nav.planning.steering import decide
-from nav.planning.steering_circle import curvature_rate
 from nav.states.memory import Memory
 from nav.states.replanning import distance_ahead, due
 from nav.states.situation import Plan, Situation
+from nav.steering_circle import curvature_rate
 
 NAME = "obstacle_avoidance"
 
