@@ -34,6 +34,10 @@ UNKNOWN_M = 1e6
 """Height of a cell of which nothing is known; finite, so that sums stay numbers."""
 _DUE_EACH_M = 0.1
 """The bound is renewed after a cell of way; a tick counts as this much, for what was learned."""
+_PULL = 0.2
+"""Share of the offset to known ground that the vehicle's height follows, a tick."""
+_TILT_WAY_M, _TILT_MAX_RAD, _STANDS_M = 40.0, 0.03, 0.02
+"""The tilt is learned over some 40 m: longer than the 15 m that the scanner looks ahead."""
 _PRIOR_M2 = 50.0
 """Weight of the vehicle's own plane in the trend, as one cell seen at 7 m."""
 
@@ -57,6 +61,9 @@ class GroundProfile:
         """Height of the reference point above the datum."""
         self._bound = self._unknown()
         self._due = parameters.cell_m  # way since the bound was renewed
+        self.tilt_rad = 0.0
+        """How much deeper the teaching scanner looks than it is believed to: learned by driving
+        over what it taught. Its heights are too high by this times the distance."""
         self._pose: Pose | None = None
         self._ahead = (1.0, 0.0)
         self._plane = (0.0, 0.0)
@@ -81,13 +88,13 @@ class GroundProfile:
         self._plane = (fore * c - left * s, fore * s + left * c)
         self._ahead = (c, s)
         self._pose = pose
-        self._stand(pose)
+        self._stand(pose, abs(way))
         self._due += abs(way) + _DUE_EACH_M
         if self._due >= self.parameters.cell_m:
             self._bound = self._renewed_bound(pose)
             self._due = 0.0
 
-    def _stand(self, pose: Pose) -> None:
+    def _stand(self, pose: Pose, way_m: float) -> None:
         """What is under the wheels is ground; where it is known, it draws the vehicle to it."""
         c, s = self._ahead
         x, y = self._wheel_m[:, 0], self._wheel_m[:, 1]
@@ -100,7 +107,11 @@ class GroundProfile:
         known = cells[index] < UNKNOWN_M
         if known.any():
             offset = float(np.mean((cells[index] - plane)[known])) - self.vehicle_m
-            self.vehicle_m += 0.2 * min(max(offset, -0.2), 0.2)
+            pull = _PULL * min(max(offset, -0.2), 0.2)
+            self.vehicle_m += pull
+            if way_m > _STANDS_M:  # a scanner that looks too deep by b pulls by b a metre of way
+                tilt = self.tilt_rad + pull / _TILT_WAY_M
+                self.tilt_rad = min(max(tilt, -_TILT_MAX_RAD), _TILT_MAX_RAD)
         cells[index] = np.where(known, cells[index], self.vehicle_m + plane)
 
     # ------------------------------------------------------------------ bound

@@ -174,9 +174,10 @@ class ObstacleMap:
         parts = [level_points(*view, p.max_range_m) for view in views]
         points = np.concatenate(parts, axis=-1)
         distance = np.hypot(points[0] - pose.x_m, points[1] - pose.y_m)
-        obstacle, ground, coarse = self.ground.classify(points, distance)
         down = [self._looks_down(view) for view in views]
         steep = np.repeat(down, [part.shape[1] for part in parts])
+        points[2] -= np.where(steep, self.ground.tilt_rad * distance, 0.0)
+        obstacle, ground, coarse = self.ground.classify(points, distance)
         near = distance < p.ground.teaching_range_m
         scans = zip(parts, down, strict=True)
         bump = np.concatenate([self._bumps(part[2], is_down) for part, is_down in scans])
