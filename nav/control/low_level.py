@@ -54,19 +54,20 @@ class LowLevelController:
         self, time_ns: int, ego: EgoEstimate | None, vehicle: VehicleState | None
     ) -> ActuatorTargets:
         """Targets for the next 20 ms."""
-        if ego is None or vehicle is None:
-            targets = self._stop(time_ns, 0.0, vehicle)
-        else:
-            then = self.predictor.predict(ego, vehicle.steering_rad)
-            self.curvature_per_m = then.curvature_per_m
-            drives = self._drives(time_ns)
-            targets = (
-                self._follow(time_ns, ego, vehicle, then)
-                if drives
-                else self._stop(time_ns, ego.speed_mps, vehicle)
-            )
+        targets = self._targets(time_ns, ego, vehicle)
         self.predictor.sent(targets.steering_rad)
         return targets
+
+    def _targets(
+        self, time_ns: int, ego: EgoEstimate | None, vehicle: VehicleState | None
+    ) -> ActuatorTargets:
+        if ego is None or vehicle is None:
+            return self._stop(time_ns, 0.0, vehicle)
+        then = self.predictor.predict(ego, vehicle.steering_rad)
+        self.curvature_per_m = then.curvature_per_m
+        if not self._drives(time_ns):
+            return self._stop(time_ns, ego.speed_mps, vehicle)
+        return self._follow(time_ns, ego, vehicle, then)
 
     def _follow(
         self, time_ns: int, ego: EgoEstimate, vehicle: VehicleState, then: Prediction
