@@ -3,11 +3,14 @@
 All code behind it assumes good data, so nothing behind it checks again.
 """
 
-from collections.abc import Iterable, Iterator
+from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass, field, fields
 from functools import cache
 from math import isfinite
+from operator import attrgetter
 from typing import Any
+
+import numpy as np
 
 from nav.messages import Floats, LidarScan, SensorMessage
 
@@ -16,17 +19,18 @@ FUTURE_NS = 50_000_000
 
 
 @cache
-def _float_fields(kind: type[Any]) -> tuple[str, ...]:
-    return tuple(f.name for f in fields(kind) if f.type in (float, Floats))
+def _floats_of(kind: type[Any]) -> Callable[[SensorMessage], tuple[Any, ...]]:
+    """Reads all float and array fields of a message, and its time: a tuple even of one field."""
+    names = [f.name for f in fields(kind) if f.type in (float, Floats)]
+    return attrgetter(*names, "time_ns")
 
 
 def _finite(message: SensorMessage) -> bool:
-    for name in _float_fields(type(message)):
-        value = getattr(message, name)
-        # a sum is finite only where all its terms are
-        if not isfinite(value if isinstance(value, float) else value.sum()):
-            return False
-    return True
+    """A sum is finite only where all its terms are."""
+    total = 0.0
+    for value in _floats_of(type(message))(message):
+        total += value.sum() if isinstance(value, np.ndarray) else value
+    return isfinite(total)
 
 
 def _source(message: SensorMessage) -> str:
@@ -35,9 +39,12 @@ def _source(message: SensorMessage) -> str:
 
 @dataclass
 class Admission:
-    """Drops messages that are not finite, too old, from the future, or backward in time."""
+    """Drops messages that are not finite, too old, from the future, backward in time, or of a
+    scanner that the vehicle does not have."""
 
     stale_ns: int
+    scanners: tuple[str, ...]
+    """Names of the vehicle's LIDARs."""
     newest_ns: dict[str, int] = field(default_factory=dict[str, int])
     dropped: dict[str, int] = field(default_factory=dict[str, int])
     """Count for each reason."""
@@ -52,6 +59,8 @@ class Admission:
             yield message
 
     def _fault(self, now_ns: int, message: SensorMessage) -> str:
+        if isinstance(message, LidarScan) and message.sensor not in self.scanners:
+            return "unknown scanner"
         if not _finite(message):
             return "not finite"
         if now_ns - message.time_ns > self.stale_ns:

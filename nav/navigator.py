@@ -1,5 +1,6 @@
 """ION's navigator: wiring only. The same code drives the twin and the truck."""
 
+from collections import deque
 from collections.abc import Sequence
 from math import atan2
 
@@ -37,7 +38,7 @@ class IonNavigator:
     def __init__(self, parameters: Parameters, route: Route) -> None:
         frame = route_frame(route)
         self.parameters = parameters
-        self.admission = Admission(STALE_NS)
+        self.admission = Admission(STALE_NS, tuple(parameters.vehicle.lidar_mounts))
         waypoints = waypoints_of(route, frame)
         x, y = waypoints.position_m[1] - waypoints.position_m[0]
         along_route = atan2(float(y), float(x))  # the crew parks so; of use without a compass
@@ -46,7 +47,10 @@ class IonNavigator:
         self.high_level = HighLevelController(parameters, waypoints)
         self.low_level = LowLevelController(parameters.control, parameters.vehicle.steering)
         self.calls = 0
-        self._scans: list[tuple[LidarScan, Pose]] = []
+        newest = parameters.obstacle_map.scans_per_sensor
+        self._scans = {
+            name: deque[LidarScan](maxlen=newest) for name in parameters.vehicle.lidar_mounts
+        }
         self._sonar: SonarScan | None = None
         self._vehicle: VehicleState | None = None
         self._ready_ns: int | None = None
@@ -67,7 +71,7 @@ class IonNavigator:
 
     def _take(self, message: SensorMessage) -> None:
         if isinstance(message, LidarScan):
-            self._scans.append((message, self.ego.pose_at(message.time_ns)))
+            self._scans[message.sensor].append(message)
             return
         if isinstance(message, SonarScan):
             self._sonar = message
@@ -95,11 +99,18 @@ class IonNavigator:
         """Bring the map up to date with all scans since the last decision."""
         x, y = (float(v) for v in ego.position_m)
         self.obstacles.recenter(x, y)
-        self.obstacles.integrate(self._scans)
-        self._scans.clear()
+        self.obstacles.integrate(self._scans_with_poses())
         if self._sonar and time_ns - self._sonar.time_ns < STALE_NS:
             pose = self.ego.pose_at(self._sonar.time_ns)
             self.obstacles.integrate_sonar(self._sonar.range_m, pose)
+
+    def _scans_with_poses(self) -> list[tuple[LidarScan, Pose]]:
+        """The newest scans of each scanner since the last decision, oldest first."""
+        scans = [scan for each in self._scans.values() for scan in each]
+        for each in self._scans.values():
+            each.clear()
+        scans.sort(key=lambda scan: scan.time_ns)
+        return [(scan, self.ego.pose_at(scan.time_ns)) for scan in scans]
 
     def _warm(self, time_ns: int) -> bool:
         """Whether the ego state has been known long enough for the map to fill."""

@@ -7,6 +7,7 @@ from nav.admission import Admission
 from nav.messages import CompassHeading, ImuSample, LidarScan, SonarScan
 
 NOW = 10_000_000_000
+SCANNERS = ("lidar_left", "lidar_right", "a", "b")
 
 
 def compass(time_ns: int = NOW, heading: float = 0.1) -> CompassHeading:
@@ -18,7 +19,7 @@ def scan(sensor: str, time_ns: int = NOW) -> LidarScan:
 
 
 def test_good_messages_pass_in_order():
-    gate = Admission(stale_ns=500_000_000)
+    gate = Admission(500_000_000, SCANNERS)
     messages = [compass(NOW - 2), scan("lidar_left"), scan("lidar_right"), compass(NOW)]
     assert list(gate.admit(NOW, messages)) == messages
     assert gate.dropped == {}
@@ -32,16 +33,17 @@ def test_good_messages_pass_in_order():
         (ImuSample(NOW, [0, 0, float("nan")], [0, 0, 9.8], 0.0, 0.0), "not finite"),
         (compass(NOW - 600_000_000), "stale"),
         (compass(NOW + 60_000_000), "from the future"),
+        (scan("lidar_of_another_truck"), "unknown scanner"),
     ],
 )
 def test_bad_messages_are_dropped_and_counted(message, reason):
-    gate = Admission(stale_ns=500_000_000)
+    gate = Admission(500_000_000, SCANNERS)
     assert list(gate.admit(NOW, [message])) == []
     assert gate.dropped == {reason: 1}
 
 
 def test_time_going_backwards_is_dropped_per_source():
-    gate = Admission(stale_ns=500_000_000)
+    gate = Admission(500_000_000, SCANNERS)
     passed = list(gate.admit(NOW, [scan("a"), scan("b"), scan("a"), scan("b", NOW - 1)]))
     assert [m.sensor for m in passed] == ["a", "b"]
     assert gate.dropped == {"backward": 2}

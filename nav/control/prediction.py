@@ -13,6 +13,9 @@ from nav.messages import EgoEstimate
 from nav.parameters.vehicle import Steering
 from nav.steering_circle import curvature
 
+STRIDE = 3
+"""Ticks in one step of the prediction: 60 ms, in which the steering moves by one degree."""
+
 
 class Prediction(NamedTuple):
     """Pose (route frame N) and curvature at that time."""
@@ -42,9 +45,10 @@ class Predictor:
     def predict(self, ego: EgoEstimate, steering_rad: float) -> Prediction:
         """Let the measured road-wheel angle follow the targets under way."""
         x, y = ego.position_m.tolist()
-        heading, step = ego.heading_rad, ego.speed_mps * self.tick_s
-        most, angle = self.steering.rate_radps * self.tick_s, steering_rad
-        for target in self.targets:
+        stride_s = STRIDE * self.tick_s
+        heading, step = ego.heading_rad, ego.speed_mps * stride_s
+        most, angle = self.steering.rate_radps * stride_s, steering_rad
+        for target in list(self.targets)[STRIDE - 1 :: STRIDE]:
             angle += min(max(target - angle, -most), most)
             turn = step * curvature(angle, self.steering)
             x += step * cos(heading + 0.5 * turn)

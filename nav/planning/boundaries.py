@@ -56,11 +56,11 @@ def boundaries(
     """
     widths = [_half_widths(layer.radius_m / cell_m) for layer in layers]
     pad = max(len(width) for width in widths)
-    words = _packed(occupied, count, pad)
+    widened = _widened(_packed(occupied, count, pad), max(width[0] for width in widths))
     level = np.zeros((count, count), np.uint8)
     inner = np.zeros((count, count), np.uint8)
     for width, layer in zip(reversed(widths), reversed(layers), strict=True):
-        inner |= _unpacked(_dilated(words, width), count, pad)
+        inner |= _unpacked(_dilated(widened, width), count, pad)
         if layer.outside is not None:
             inner |= layer.outside.view(np.uint8)
         level += inner
@@ -96,24 +96,29 @@ def _unpacked(words: _Words, count: int, pad: int) -> Cells:
     return np.ascontiguousarray(bits[:, pad : pad + count])
 
 
-def _dilated(words: _Words, half_widths: tuple[int, ...]) -> _Words:
-    """`words` dilated by a disc: from its rim, where it is narrow, to its middle."""
-    result = np.zeros_like(words)
-    wide, width = words.copy(), 0
-    for row in range(len(half_widths) - 1, -1, -1):
-        while width < half_widths[row]:
-            width += 1
-            _widen(wide, words, width)
-        result[row:] |= wide[: len(wide) - row]
-        result[: len(wide) - row] |= wide[row:]
+def _widened(words: _Words, most: int) -> list[_Words]:
+    """`words` with each bit spread over 0, 1, ... `most` cells to both sides."""
+    spread = [words]
+    for cells in range(1, most + 1):
+        spread.append(_spread(spread[-1], words, cells))
+    return spread
+
+
+def _dilated(widened: list[_Words], half_widths: tuple[int, ...]) -> _Words:
+    """The occupied cells dilated by a disc, row by row of it."""
+    result = widened[half_widths[0]].copy()
+    for row, width in enumerate(half_widths[1:], start=1):
+        wide = widened[width]
+        result[row:] |= wide[:-row]
+        result[:-row] |= wide[row:]
     return result
 
 
-def _widen(wide: _Words, words: _Words, cells: int) -> None:
-    """Add `words`, shifted by `cells` both ways, to `wide`."""
-    wide, words = wide.ravel(), words.ravel()
+def _spread(wide: _Words, words: _Words, cells: int) -> _Words:
+    """`wide` and `words`, shifted by `cells` both ways."""
+    shape, words = wide.shape, words.ravel()
     near, carry = np.uint64(cells), np.uint64(_WORD - cells)
-    wide |= words << near
-    wide |= words >> near
-    wide[1:] |= words[:-1] >> carry
-    wide[:-1] |= words[1:] << carry
+    result = wide.ravel() | (words << near) | (words >> near)
+    result[1:] |= words[:-1] >> carry
+    result[:-1] |= words[1:] << carry
+    return result.reshape(shape)
