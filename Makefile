@@ -21,7 +21,7 @@ nqe: .venv/.base
 	$(BIN)/ion drive nqe --seed 0 --out runs
 
 test: .venv/.dev
-	$(BIN)/pytest
+	$(BIN)/pytest -n auto
 
 test-slow: .venv/.dev
 	$(BIN)/pytest -m slow
@@ -30,7 +30,7 @@ check: .venv/.dev
 	$(BIN)/ruff check
 	$(BIN)/pyright
 	$(BIN)/lint-imports
-	$(BIN)/pytest
+	$(BIN)/pytest -n auto
 
 # What an episode costs, part by part; then twenty seeds of the NQE, two at a time: what a change
 # to the navigator is measured by.
