@@ -10,6 +10,8 @@ from nav.fusion.lattice import Ints
 from nav.fusion.scan_geometry import Placed, ScanGeometry
 from nav.messages import Floats
 
+LOW_M = 0.5
+"""What is lower than this lies below the beams of the scanner on the bumper (0.55 m)."""
 Bools = NDArray[np.bool_]
 
 
@@ -37,12 +39,21 @@ def look(views: Sequence[View], place: Floats, margin_m: float) -> tuple[Bools, 
     distance = np.sqrt(x * x + y * y)
     beam, inside = _beam(views, x, y)
     height = origin[:, 2] + distance * (rise / level).ravel()[beam]
-    low = inside & (height <= place[2] + 0.02 + 0.002 * distance)
+    low = inside & (height <= place[2] + _slack_m(place[2], distance))
     over = nearest.ravel()[beam] - distance
     through = (low & (over > margin_m)).any(axis=0)
     spread = (farthest - nearest).ravel()[beam]  # when grazing, returns lie far apart
     beside = (low & (np.abs(over) <= margin_m) & (spread < 2 * margin_m)).any(axis=0)
     return through, beside & ~through
+
+
+def _slack_m(top_m: Floats, distance_m: Floats) -> Floats:
+    """How far above a cell's top a beam may pass and still deny it; shapes broadcast.
+
+    Tall things are denied by a beam at the height at which they were seen. A level beam just over
+    a bale must not deny it: for low things the beam must pass clearly below the top.
+    """
+    return np.where(top_m < LOW_M, -0.03 - 0.004 * distance_m, 0.02 + 0.002 * distance_m)
 
 
 def _beam(views: Sequence[View], x: Floats, y: Floats) -> tuple[Ints, Bools]:
