@@ -22,11 +22,11 @@ class Terrain(Protocol):
 
 @dataclass(frozen=True)
 class Obstacle:
-    """A rigid thing: a box (half sizes along its axes) or an upright cylinder (radius, -, half height)."""
+    """A rigid thing: a box with half sizes, or an upright cylinder with radius, -, half height."""
 
     name: str
     kind: str
-    """`gate_post`, `gate_flank`, `tunnel`, `car`, `hay_bale`, `tires`, `tank_trap`, `rumble_strip`, ..."""
+    """`gate_post`, `gate_flank`, `tunnel`, `car`, `hay_bale`, `tires`, `rumble_strip`, ..."""
     shape: str
     """`box` or `cylinder`."""
     center_m: tuple[float, float, float]
