@@ -18,7 +18,6 @@ class PathError:
     offset_m: float
     """Left of the curve is positive."""
     heading_rad: float
-    curvature_per_m: float
 
 
 def path_error(curve: Curve, x_m: float, y_m: float, heading_rad: float) -> PathError:
@@ -28,11 +27,9 @@ def path_error(curve: Curve, x_m: float, y_m: float, heading_rad: float) -> Path
     c, s = cos(curve.heading_rad[i]), sin(curve.heading_rad[i])
     dx, dy = -float(d[i, 0]), -float(d[i, 1])
     along, offset = c * dx + s * dy, c * dy - s * dx
-    curvature = float(curve.curvature_per_m[i])
-    turned = heading_rad - float(curve.heading_rad[i]) - curvature * along
-    return PathError(
-        float(curve.arc_m[i]) + along, offset, atan2(sin(turned), cos(turned)), curvature
-    )
+    bend = float(curve.curvature_per_m[i])
+    turned = heading_rad - float(curve.heading_rad[i]) - bend * along
+    return PathError(float(curve.arc_m[i]) + along, offset, atan2(sin(turned), cos(turned)))
 
 
 def bend_ahead(curve: Curve, arc_m: float, way_m: float) -> float:

@@ -8,7 +8,7 @@ import math
 from dataclasses import dataclass
 
 from nav.fusion import ego_gps
-from nav.fusion.attitude_history import AttitudeHistory
+from nav.fusion.attitude_history import SILENT_S, AttitudeHistory
 from nav.fusion.ego_filter import (
     COMPASS_BIAS,
     GYRO_BIAS,
@@ -47,8 +47,6 @@ from nav.steering_circle import curvature
 
 ACCELERATION_S = 0.2
 """Time constant of the acceleration that carries the speed back to a delayed fix."""
-SILENT_S = 0.5
-"""Nothing is extrapolated farther than this."""
 
 
 @dataclass
