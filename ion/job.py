@@ -66,11 +66,12 @@ class Job:
         from tape.writer import TapeWriter
 
         said = {"scenario": self.source.name, "seed": str(seed), "ablate": " ".join(self.ablate)}
-        attached = {course.route_name: course.route_text, **parameter_texts()}
+        said["vehicle"] = course.vehicle
+        attached = {course.route_name: course.route_text, **parameter_texts(course.vehicle)}
         if self.source.scenario:
             folder = files("scenarios") / self.source.scenario
             attached["scenario.toml"] = (folder / "scenario.toml").read_text(encoding="utf-8")
-        return TapeWriter(path, attached, said | fingerprint(), self.log, _view())
+        return TapeWriter(path, attached, said | fingerprint(), self.log, _view(course.vehicle))
 
     def _draw(self, course: "Course", trace: "Trace", episode: "Episode", seed: int) -> str:
         from ion.map_picture import draw_map
@@ -87,13 +88,14 @@ def _stop_when_asked(episode: "Episode", records: object) -> None:
         raise KeyboardInterrupt
 
 
-def _view() -> Any:
-    """Draws `/view/`, knowing where the scanners sit."""
+def _view(vehicle: str) -> Any:
+    """Draws `/view/`, knowing where a vehicle's scanners sit."""
     from nav.parameters import parameters_from
     from scenarios.parameter_files import parameter_texts
     from tape.view import View
 
-    return View(parameters_from(parameter_texts()).vehicle.lidar_mounts)
+    texts = parameter_texts(vehicle)
+    return View(parameters_from(texts, vehicle).vehicle.lidar_mounts)
 
 
 def _title(course: str, seed: int, figures: dict[str, Any]) -> str:

@@ -5,6 +5,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from nav.parameters import ION
 from nav.route.rddf import FOOT_M as FOOT_M
 from nav.route.rddf import MPH_MPS as MPH_MPS
 from nav.route.rddf import Route
@@ -48,6 +49,13 @@ class Course:
     """In driving order."""
     tunnel_center_line_m: Floats | None = None
     """Shape (k, 2), in driving order, or None where there is no tunnel."""
+    vehicle: str = ION
+    """A name of `scenarios.vehicles`."""
+    goal_m: float | None = None
+    """Finished when the reference point is this near to the last waypoint; None: when the nose
+    crosses the line there."""
+    stuck_s: float = 60.0
+    """Without a metre of way for this long, the drive is over."""
 
 
 def route_points_m(route: Route, anchor: tuple[float, float]) -> Floats:

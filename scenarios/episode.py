@@ -9,10 +9,10 @@ from nav.route import rddf
 from scenarios.ablation import disabled_sensors
 from scenarios.course import Course
 from scenarios.parameter_files import parameter_texts
+from scenarios.vehicles import VEHICLES
 from scenarios.verdicts import Judge
 from tape.digest import Digest
 from tape.record import Record, record
-from twin.simulator import Simulator
 from twin.truth import Truth
 
 
@@ -39,10 +39,12 @@ class Episode:
     ) -> None:
         self.course, self.seed, self.ablate = course, seed, ablate
         route = rddf.parse(course.route_text, course.route_name)
-        chosen = nav_parameters or parameters_from(parameter_texts())
+        vehicle = VEHICLES[course.vehicle]
+        texts = parameter_texts(course.vehicle)
+        chosen = nav_parameters or parameters_from(texts, course.vehicle)
         self.navigator = IonNavigator(chosen, route)
-        self.simulator = Simulator(course.world, seed, disabled_sensors(ablate))
-        self.judge = Judge(course)
+        self.simulator = vehicle.twin(course.world, seed, disabled_sensors(ablate))
+        self.judge = Judge(course, outline=vehicle.outline)
         self.digest = Digest()
         self.truth: Truth = self.simulator.truth()
         self.targets = ActuatorTargets(0, 0.0, 0.0, 1.0, Gear.HIGH)

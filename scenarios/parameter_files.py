@@ -3,9 +3,11 @@
 from importlib.resources import files
 
 from nav import parameters
+from nav.parameters import ION
 
 
-def parameter_texts() -> dict[str, str]:
-    """Text of each of `nav.parameters.FILES`, by name."""
+def parameter_texts(vehicle: str = ION) -> dict[str, str]:
+    """Text of each file that describes a vehicle (`nav.parameters.files_of`), by name."""
     folder = files(parameters)
-    return {name: (folder / name).read_text(encoding="utf-8") for name in parameters.FILES}
+    names = parameters.files_of(vehicle)
+    return {name: (folder / name).read_text(encoding="utf-8") for name in names}

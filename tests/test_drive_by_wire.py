@@ -11,7 +11,7 @@ P = DriveByWireParameters()
 
 def shim():
     gearbox = Gearbox(GearboxParameters(), np.random.default_rng(0), Gear.HIGH)
-    return DriveByWire(P, gearbox)
+    return DriveByWire(P, gearbox, clock.STEP_S)
 
 
 def run(unit, first, seconds, **targets):

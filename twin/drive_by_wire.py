@@ -8,7 +8,6 @@ from dataclasses import dataclass
 from math import isfinite
 
 from nav.messages import ActuatorTargets, Gear
-from twin.clock import STEP_S
 from twin.drivetrain import Gearbox
 from twin.truth import Applied
 from twin.vehicle import STEERING_LIMIT_RAD
@@ -56,9 +55,11 @@ class Delay:
 class DriveByWire:
     """Delay, saturation and rate limits; stops the vehicle when targets stop arriving."""
 
-    def __init__(self, parameters: DriveByWireParameters, gearbox: Gearbox) -> None:
+    def __init__(self, parameters: DriveByWireParameters, gearbox: Gearbox, dt_s: float) -> None:
+        """`dt_s` is the time from one `step` to the next."""
         p = self.parameters = parameters
         self.gearbox = gearbox
+        self._dt_s = dt_s
         self._steering = Delay(p.steering_delay_s, 0.0)
         self._throttle = Delay(p.throttle_delay_s, 0.0)
         self._brake = Delay(p.brake_delay_s, 1.0)
@@ -79,15 +80,15 @@ class DriveByWire:
         self._alive_until_ns = time_ns + round(p.timeout_s * 1e9)
 
     def step(self, time_ns: int, speed_mps: float) -> Applied:
-        """Advance by one physics step: what the actuators really do at `time_ns`."""
-        p, was, gearbox = self.parameters, self.applied, self.gearbox
+        """Advance by `dt_s`: what the actuators really do at `time_ns`."""
+        p, was, gearbox, dt = self.parameters, self.applied, self.gearbox, self._dt_s
         if time_ns >= self._alive_until_ns:
             self._stop()
-        gearbox.step(self._gear, speed_mps, STEP_S)
+        gearbox.step(self._gear, speed_mps, dt)
         self.applied = Applied(
-            _towards(was.steering_rad, self._steering.get(time_ns), p.steering_rate_radps * STEP_S),
-            _towards(was.throttle, self._throttle.get(time_ns), p.throttle_rate_per_s * STEP_S),
-            _towards(was.brake, self._brake.get(time_ns), p.brake_rate_per_s * STEP_S),
+            _towards(was.steering_rad, self._steering.get(time_ns), p.steering_rate_radps * dt),
+            _towards(was.throttle, self._throttle.get(time_ns), p.throttle_rate_per_s * dt),
+            _towards(was.brake, self._brake.get(time_ns), p.brake_rate_per_s * dt),
             int(gearbox.gear),
             gearbox.shifting,
         )

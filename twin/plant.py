@@ -24,6 +24,10 @@ from twin.vehicle import ackermann, indices, linkage, tire_contact
 Floats = NDArray[np.float64]
 
 GROUND = "ground"
+CONTROL_STEPS = 3
+"""Physics steps from one turn of drive-by-wire, engine and drag to the next: 100 Hz. The fastest of
+them, the coupling of the wheels, has 85 ms."""
+CONTROL_S = CONTROL_STEPS * clock.STEP_S
 _SPEED_LEVEL_MPS = 0.05
 _CHASSIS, _OBSTACLE, _SOFT = 1, 2, 3
 _SITE = mujoco.mjtObj.mjOBJ_SITE
@@ -61,11 +65,12 @@ class Plant:
         self.k = 0
         self._at = indices(model)
         self._drivetrain = drivetrain or DrivetrainParameters()
-        self._engine = Engine(self._drivetrain, clock.STEP_S)
+        self._engine = Engine(self._drivetrain, CONTROL_S)
         rng = np.random.default_rng(np.random.SeedSequence(seed, spawn_key=tuple(b"gearbox")))
         self._shim = DriveByWire(
             drive_by_wire or DriveByWireParameters(),
             Gearbox(gearbox or GearboxParameters(), rng, gear),
+            CONTROL_S,
         )
         self._kind, self._owner = _geoms(model, owners or {}, self._at.body)
         self._touched: dict[str, None] = {}
@@ -102,16 +107,20 @@ class Plant:
 
     def step(self) -> None:
         """One physics step of 1/300 s; positions, velocities and contacts are fresh after it."""
-        velocity = self._velocity()
-        speed = self._ahead(velocity)
-        applied = self._shim.step(clock.time_ns(self.k), speed)
-        self._actuate(applied, speed)
-        self._drag(velocity)
+        if self.k % CONTROL_STEPS == 0:
+            self._control()
         mujoco.mj_step2(self.model, self.data)
-        self._soften(abs(speed))
         mujoco.mj_step1(self.model, self.data)
         self.k += 1
         self._touch()
+
+    def _control(self) -> None:
+        """Let actuators, engine, air and tires answer to the present speed."""
+        velocity = self._velocity()
+        speed = self._ahead(velocity)
+        self._actuate(self._shim.step(clock.time_ns(self.k), speed), speed)
+        self._drag(velocity)
+        self._soften(abs(speed))
 
     def _actuate(self, applied: Applied, speed: float) -> None:
         data, at, p = self.data, self._at, self._drivetrain

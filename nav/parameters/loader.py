@@ -25,11 +25,35 @@ def from_toml(cls: type[T], text: str, where: str) -> T:
     Raises:
         ParameterError: not TOML, an unknown or missing key, or a value of the wrong kind.
     """
+    return from_table(cls, table_of(text, where), where)
+
+
+def from_table(cls: type[T], table: dict[str, Any], where: str) -> T:
+    """Build the dataclass `cls` from plain tables, as `from_toml`."""
+    return _value(cls, table, where)
+
+
+def table_of(text: str, where: str) -> dict[str, Any]:
+    """TOML as plain tables.
+
+    Raises:
+        ParameterError: not TOML.
+    """
     try:
-        table = tomllib.loads(text)
+        return tomllib.loads(text)
     except tomllib.TOMLDecodeError as error:
         raise ParameterError(f"{where}: not TOML: {error}") from error
-    return _value(cls, table, where)
+
+
+def merged(kind: Any, base: dict[str, Any], over: dict[str, Any]) -> dict[str, Any]:
+    """`base` with what `over` says instead: field by field in dataclasses, all else wholly."""
+    hints = get_type_hints(kind)
+    deeper = {
+        key: merged(hints[key], base[key], over[key])
+        for key in over
+        if is_dataclass(hints.get(key)) and key in base and type(over[key]) is dict
+    }
+    return base | over | deeper
 
 
 def _value(kind: Any, value: Any, path: str) -> Any:

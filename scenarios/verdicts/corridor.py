@@ -1,5 +1,6 @@
 """Where the vehicle is on the route, and whether its tires stay inside the corridor."""
 
+import math
 from dataclasses import dataclass
 from typing import NamedTuple
 
@@ -25,6 +26,8 @@ class Progress:
 
     waypoint_m: Floats
     """Shape (n, 2), world frame."""
+    goal_m: float | None = None
+    """The last is also reached when the reference point is this near."""
     segment: int = 0
     """Index of the segment that the vehicle is on; n - 1 behind the last waypoint."""
 
@@ -37,15 +40,21 @@ class Progress:
     def observe(self, reference_m: Point, nose_m: Point) -> None:
         """Take the positions of the reference point and of the middle of the bumper."""
         finish = len(self._waypoints) - 1
+        if self.goal_m is not None and math.dist(reference_m, self._waypoints[-1]) < self.goal_m:
+            self.segment = finish
         while not self.finished:
             x, y = nose_m if self.segment + 1 == finish else reference_m
-            if not self._beyond(self.segment + 1, x, y):
+            if not self._beyond(self.segment + 1, x, y) or self._awaits_goal():
                 break
             self.segment += 1
 
     def _beyond(self, waypoint: int, x: float, y: float) -> bool:
         (wx, wy), (tx, ty) = self._waypoints[waypoint], self._along[waypoint]
         return (x - wx) * tx + (y - wy) * ty >= 0.0
+
+    def _awaits_goal(self) -> bool:
+        """Whether only nearness counts now."""
+        return self.goal_m is not None and self.segment + 2 == len(self._waypoints)
 
     @property
     def passed(self) -> int:

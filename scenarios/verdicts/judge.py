@@ -27,7 +27,6 @@ PATH_SPEED_MPS = 1.0
 PATH_CLEAR_M = 15.0
 TUNNEL_REACH_M = 4.0
 """Farther from its centre line a vehicle is beside the tunnel, not in it: on another leg."""
-STUCK_S = 60.0
 STUCK_M = 1.0
 
 
@@ -74,7 +73,7 @@ class Judge:
         owners = {o.owner or o.name: o.kind for o in course.world.obstacles}
         corridor = Waypoints(course.waypoint_m, course.half_width_m, course.speed_mps)
         self.movement = Movement()
-        self.progress = Progress(course.waypoint_m)
+        self.progress = Progress(course.waypoint_m, course.goal_m)
         self.departures = Departures(corridor)
         self.gates = GateKeeper(course.gates, self.outline)
         self.contacts = Contacts(frozenset(o for o, kind in owners.items() if kind in SOFT))
@@ -135,7 +134,7 @@ class Judge:
             "contact": self.contacts.count > 0,
             "departure": self.departure_ends and self.departures.count > 0,
             "finished": self.progress.finished,
-            "stuck": self.movement.still_s >= STUCK_S,
+            "stuck": self.movement.still_s >= self.course.stuck_s,
             "timeout": time_s >= self.course.time_limit_s,
         }
         return next((word for word, is_so in over.items() if is_so), None)

@@ -1,0 +1,43 @@
+"""The vehicles that a course can be driven with: a twin, its outline, and the navigator's file."""
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import Protocol
+
+from nav.messages import ActuatorTargets, SensorMessage
+from nav.parameters import ION
+from scenarios.verdicts.shapes import Outline
+from twin.simulator import Simulator
+from twin.truth import Truth
+from twin.world import World
+
+
+class Twin(Protocol):
+    """A simulated vehicle in a world. Picklable in the middle."""
+
+    @property
+    def time_ns(self) -> int:
+        """Time since the start, [ns]."""
+        ...
+
+    def advance(self, targets: ActuatorTargets) -> list[SensorMessage]:
+        """Drive for 20 ms under `targets`; the messages delivered meanwhile, in their order."""
+        ...
+
+    def truth(self) -> Truth:
+        """The true state, for judges and pictures only."""
+        ...
+
+
+@dataclass(frozen=True)
+class Vehicle:
+    """One kind of vehicle."""
+
+    twin: Callable[[World, int, frozenset[str]], Twin]
+    """Builds it from the world, the seed, and the sensors that are silent."""
+    outline: Outline
+    """What the judge measures clearance from."""
+
+
+VEHICLES = {ION: Vehicle(Simulator, Outline())}
+"""By the name that a course gives, which is also that of the navigator's parameter file."""
