@@ -3,7 +3,7 @@
 All code behind it assumes good data, so nothing behind it checks again.
 """
 
-from collections.abc import Callable, Iterable, Iterator
+from collections.abc import Callable, Iterable
 from dataclasses import dataclass, field, fields
 from functools import cache
 from math import isfinite
@@ -49,14 +49,16 @@ class Admission:
     dropped: dict[str, int] = field(default_factory=dict[str, int])
     """Count for each reason."""
 
-    def admit(self, now_ns: int, messages: Iterable[SensorMessage]) -> Iterator[SensorMessage]:
-        """Yield the good messages in order of delivery; count the others by reason."""
-        for message in messages:
-            if reason := self._fault(now_ns, message):
-                self.dropped[reason] = self.dropped.get(reason, 0) + 1
-                continue
-            self.newest_ns[_source(message)] = message.time_ns
-            yield message
+    def admit(self, now_ns: int, messages: Iterable[SensorMessage]) -> list[SensorMessage]:
+        """The good messages in order of delivery; the others are counted by reason."""
+        return [message for message in messages if self._passes(now_ns, message)]
+
+    def _passes(self, now_ns: int, message: SensorMessage) -> bool:
+        if reason := self._fault(now_ns, message):
+            self.dropped[reason] = self.dropped.get(reason, 0) + 1
+            return False
+        self.newest_ns[_source(message)] = message.time_ns
+        return True
 
     def _fault(self, now_ns: int, message: SensorMessage) -> str:
         if isinstance(message, LidarScan) and message.sensor not in self.scanners:
