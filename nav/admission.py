@@ -26,11 +26,11 @@ def _floats_of(kind: type[Any]) -> Callable[[SensorMessage], tuple[Any, ...]]:
 
 
 def _finite(message: SensorMessage) -> bool:
-    """A sum is finite only where all its terms are."""
-    total = 0.0
+    """A sum of squares is finite only where all its terms are, and quicker than a sum."""
     for value in _floats_of(type(message))(message):
-        total += value.sum() if isinstance(value, np.ndarray) else value
-    return isfinite(total)
+        if not isfinite(value.dot(value) if isinstance(value, np.ndarray) else value):
+            return False
+    return True
 
 
 def _source(message: SensorMessage) -> str:
@@ -54,14 +54,15 @@ class Admission:
         return [message for message in messages if self._passes(now_ns, message)]
 
     def _passes(self, now_ns: int, message: SensorMessage) -> bool:
-        if reason := self._fault(now_ns, message):
+        source = _source(message)
+        if reason := self._fault(now_ns, message, source):
             self.dropped[reason] = self.dropped.get(reason, 0) + 1
             return False
-        self.newest_ns[_source(message)] = message.time_ns
+        self.newest_ns[source] = message.time_ns
         return True
 
-    def _fault(self, now_ns: int, message: SensorMessage) -> str:
-        if isinstance(message, LidarScan) and message.sensor not in self.scanners:
+    def _fault(self, now_ns: int, message: SensorMessage, source: str) -> str:
+        if isinstance(message, LidarScan) and source not in self.scanners:
             return "unknown scanner"
         if not _finite(message):
             return "not finite"
@@ -69,6 +70,6 @@ class Admission:
             return "stale"
         if message.time_ns - now_ns > FUTURE_NS:
             return "from the future"
-        if message.time_ns <= self.newest_ns.get(_source(message), -1):
+        if message.time_ns <= self.newest_ns.get(source, -1):
             return "backward"
         return ""
