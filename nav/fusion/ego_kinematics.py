@@ -45,8 +45,9 @@ def speed_of_wheels(
     swing = (vehicle.wheelbase_m * yaw_rate_radps) ** 2
     front = [math.copysign(math.sqrt(max(w * w - swing, 0.0)), w) for w in wheel_speed_mps[:2]]
     wheels = front + wheel_speed_mps[2:]
-    speeds = sorted([left + side for left in wheels[::2]] + [right - side for right in wheels[1::2]])
-    return 0.5 * (speeds[2] + speeds[3])
+    left, right = [w + side for w in wheels[::2]], [w - side for w in wheels[1::2]]
+    _, _, lower, upper, _, _ = sorted(left + right)
+    return 0.5 * (lower + upper)
 
 
 def level(offset_m: tuple[float, float, float], attitude: Attitude) -> tuple[float, float]:
