@@ -24,6 +24,7 @@ from nav.parameters.obstacle_map import ObstacleMapParameters
 from nav.parameters.vehicle import Outline, VehicleParameters
 
 _NO_TOP_M = -1e6
+_NONE = np.zeros(0)
 _LONGEST_S = 0.3
 """Decay of one tick covers at most this time: one look after a gap proves no long absence."""
 
@@ -170,46 +171,44 @@ class ObstacleMap:
 
     def _mark(self, views: Sequence[View], pose: Pose) -> Ints:
         """Sort the returns; obstacles gain in `_gain` and `_top`. Returns their cells."""
-        p = self.parameters
-        parts = [level_points(*view, p.max_range_m) for view in views]
-        points = np.concatenate(parts, axis=-1)
+        p = self.parameters.ground
+        steep = [self._points(view) for view in views if self._looks_down(view)]
+        level = [self._points(view) for view in views if not self._looks_down(view)]
+        points = np.concatenate(steep + level, axis=-1)
         distance = np.hypot(points[0] - pose.x_m, points[1] - pose.y_m)
-        down = [self._looks_down(view) for view in views]
-        steep = np.repeat(down, [part.shape[1] for part in parts])
-        points[2] -= np.where(steep, self.ground.tilt_rad * distance, 0.0)
+        bump = np.concatenate([_NONE, *(bumps(part[2], p.bump_beams) for part in steep)])
+        first = slice(len(bump))  # the points of steep beams
+        points[2, first] -= self.ground.tilt_rad * distance[first]
         obstacle, ground, coarse = self.ground.classify(points, distance)
-        near = distance < p.ground.teaching_range_m
-        scans = zip(parts, down, strict=True)
-        bump = np.concatenate([self._bumps(part[2], is_down) for part, is_down in scans])
-        stands_out = steep & ground & (bump > p.ground.bump_m)
-        obstacle, ground = obstacle | stands_out, ground & ~stands_out
-        self._see_bare(points[:2, steep & near & (np.abs(bump) < p.ground.flat_m) & ground])
-        self.ground.learn(coarse, points[2], ground & steep & near, obstacle)
+        stands_out = ground[first] & (bump > p.bump_m)
+        obstacle[first] |= stands_out
+        teaching = np.zeros_like(ground)
+        teaching[first] = ground[first] & ~stands_out & (distance[first] < p.teaching_range_m)
+        self._see_bare(points[:2, first][:, teaching[first] & (np.abs(bump) < p.flat_m)])
+        self.ground.learn(coarse, points[2], teaching, obstacle)
         # a steep beam's height is uncertain: what only such beams have seen (a bale) counts as so
         # low that a level beam, which passes over it, does not deny it
-        height = points[2] - np.where(steep, p.ground.tilt_rad * distance, 0.0)
-        return self._gather(points[:2, obstacle], height[obstacle])
+        points[2, first] -= p.tilt_rad * distance[first]
+        return self._gather(points[:, obstacle])
+
+    def _points(self, view: View) -> Floats:
+        return level_points(*view, self.parameters.max_range_m)
 
     def _looks_down(self, view: View) -> bool:
         """Whether a scanner is mounted to look at the ground ahead: only such a one teaches it. The
         others meet ground when the vehicle rolls, far away and with errors of their own."""
         return bool(view.geometry.axes[2, 0] < -self.parameters.ground.teaching_slope)
 
-    def _bumps(self, height_m: Floats, looks_down: bool) -> Floats:
-        """What stands out of a scan of the ground; level scans tell nothing."""
-        beams = self.parameters.ground.bump_beams
-        return bumps(height_m, beams) if looks_down else np.zeros(len(height_m))
-
     def _see_bare(self, place: Floats) -> None:
         """Cells in which a steep beam has met ground in this tick."""
         index, inside = self.lattice.index(place[0], place[1])
         self._bare = index[inside]
 
-    def _gather(self, place: Floats, height_m: Floats) -> Ints:
-        index, inside = self.lattice.index(place[0], place[1])
+    def _gather(self, points: Floats) -> Ints:
+        index, inside = self.lattice.index(points[0], points[1])
         index = index[inside]
         np.add.at(self._gain.ravel(), index, np.float32(self.parameters.confidence.hit))
-        top = height_m[inside] + self.ground.vehicle_m
+        top = points[2, inside] + self.ground.vehicle_m
         # both sides of one kind: ten times faster
         np.maximum.at(self._top.ravel(), index, top.astype(np.float32))
         return index
