@@ -19,7 +19,7 @@ FUTURE_NS = 50_000_000
 
 
 @cache
-def _floats_of(kind: type[Any]) -> Callable[[SensorMessage], tuple[Any, ...]]:
+def _floats_of(kind: type[Any]) -> Callable[[SensorMessage], tuple[Floats | float, ...]]:
     """Reads all float and array fields of a message, and its time: a tuple even of one field."""
     names = [f.name for f in fields(kind) if f.type in (float, Floats)]
     return attrgetter(*names, "time_ns")
