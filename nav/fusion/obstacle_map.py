@@ -8,6 +8,7 @@ keeps its confidence, so blind corners persist, and so does what is lower than t
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from itertools import pairwise
 from math import cos, sin
 
 import numpy as np
@@ -17,8 +18,15 @@ from nav.errors import NavError
 from nav.fusion.bumps import bumps
 from nav.fusion.ground_profile import GroundProfile
 from nav.fusion.lattice import Ints, Lattice
-from nav.fusion.scan_geometry import Pose, level_points, placed, scan_geometry
-from nav.fusion.see_through import View, look
+from nav.fusion.scan_geometry import (
+    Pose,
+    Scans,
+    level_points,
+    placed,
+    returns,
+    scan_geometry,
+)
+from nav.fusion.see_through import look
 from nav.messages import Floats, LidarScan
 from nav.parameters.obstacle_map import ObstacleMapParameters
 from nav.parameters.vehicle import Outline, VehicleParameters
@@ -61,6 +69,13 @@ class ObstacleMap:
             name: scan_geometry(mount, vehicle.lidar, vehicle.outline)
             for name, mount in vehicle.lidar_mounts.items()
         }
+        self._teachers = [
+            name
+            for name, geometry in self._geometry.items()
+            if geometry.mount[2, 0] < -parameters.ground.teaching_slope
+        ]
+        """Mounted to look at the ground ahead: only such scanners teach it. The others meet ground
+        when the vehicle rolls, far away and with errors of their own."""
         self._sonar_arcs = _sonar_arcs(vehicle)
         self._sonar_min_m = vehicle.sonar.min_range_m
         self._footprint = _footprint(vehicle.outline, parameters.cell_m)
@@ -112,14 +127,17 @@ class ObstacleMap:
         Raises:
             NavError: a scan of a scanner that the vehicle does not have.
         """
-        views = [(self._view(scan, pose), pose) for scan, pose in self._newest(scans)]
-        if not views:
+        chosen = self._newest(scans)
+        if not chosen:
             return
-        pose = views[-1][1]
+        time_ns, pose = chosen[-1][0].time_ns, chosen[-1][1]
         self._follow(pose)
-        hits = self._mark([view for view, _ in views], pose)
-        newest = {id(view.geometry): view for view, _ in views}
-        self._decay(list(newest.values()), self._elapsed_s(scans[-1][0].time_ns))
+        chosen.sort(key=lambda each: each[0].sensor not in self._teachers)
+        views = self._views(chosen)
+        steep = [scan.sensor for scan, _ in chosen if scan.sensor in self._teachers]
+        hits = self._mark(views, len(steep), pose)
+        newest = {scan.sensor: k for k, (scan, _) in enumerate(chosen)}
+        self._decay(views.only(list(newest.values())), self._elapsed_s(time_ns))
         self._add(hits)
         self._clear_footprint(pose)
 
@@ -153,9 +171,11 @@ class ObstacleMap:
             left[scan.sensor] -= 1
         return chosen[::-1]
 
-    def _view(self, scan: LidarScan, pose: Pose) -> View:
-        geometry = self._geometry[scan.sensor]
-        return View(geometry, placed(geometry, pose), scan.range_m)
+    def _views(self, scans: Sequence[tuple[LidarScan, Pose]]) -> Scans:
+        geometry = [self._geometry[scan.sensor] for scan, _ in scans]
+        poses = [pose for _, pose in scans]
+        frame = np.array([placed(*each) for each in zip(geometry, poses, strict=True)])
+        return Scans(geometry, frame, np.array([scan.range_m for scan, _ in scans]))
 
     def _follow(self, pose: Pose, new_bound: bool = True) -> None:
         self.recenter(pose.x_m, pose.y_m)
@@ -169,14 +189,19 @@ class ObstacleMap:
 
     # ------------------------------------------------------------------ returns
 
-    def _mark(self, views: Sequence[View], pose: Pose) -> Ints:
-        """Sort the returns; obstacles gain in `_gain` and `_top`. Returns their cells."""
+    def _mark(self, scans: Scans, steep: int, pose: Pose) -> Ints:
+        """Sort the returns; obstacles gain in `_gain` and `_top`. Returns their cells.
+
+        The first `steep` scans are those of scanners that look down.
+        """
         p = self.parameters.ground
-        steep = [self._points(view) for view in views if self._looks_down(view)]
-        level = [self._points(view) for view in views if not self._looks_down(view)]
-        points = np.concatenate(steep + level, axis=-1)
-        distance = np.hypot(points[0] - pose.x_m, points[1] - pose.y_m)
-        bump = np.concatenate([_NONE, *(bumps(part[2], p.bump_beams) for part in steep)])
+        beam = returns(scans, self.parameters.max_range_m)
+        points = level_points(scans, beam)
+        x, y = points[0] - pose.x_m, points[1] - pose.y_m
+        distance = np.sqrt(x * x + y * y)
+        ends = np.searchsorted(beam, [k * scans.range_m.shape[1] for k in range(steep + 1)])
+        heights = [points[2, start:end] for start, end in pairwise(ends.tolist())]
+        bump = np.concatenate([_NONE, *(bumps(height, p.bump_beams) for height in heights)])
         first = slice(len(bump))  # the points of steep beams
         points[2, first] -= self.ground.tilt_rad * distance[first]
         obstacle, ground, coarse = self.ground.classify(points, distance)
@@ -190,14 +215,6 @@ class ObstacleMap:
         # low that a level beam, which passes over it, does not deny it
         points[2, first] -= p.tilt_rad * distance[first]
         return self._gather(points[:, obstacle])
-
-    def _points(self, view: View) -> Floats:
-        return level_points(*view, self.parameters.max_range_m)
-
-    def _looks_down(self, view: View) -> bool:
-        """Whether a scanner is mounted to look at the ground ahead: only such a one teaches it. The
-        others meet ground when the vehicle rolls, far away and with errors of their own."""
-        return bool(view.geometry.axes[2, 0] < -self.parameters.ground.teaching_slope)
 
     def _see_bare(self, place: Floats) -> None:
         """Cells in which a steep beam has met ground in this tick."""
@@ -224,16 +241,16 @@ class ObstacleMap:
         self._confidence.ravel()[index[inside]] = 0.0
         self._top.ravel()[index[inside]] = _NO_TOP_M
 
-    def _decay(self, views: Sequence[View], elapsed_s: float) -> None:
+    def _decay(self, scans: Scans, elapsed_s: float) -> None:
         """Take confidence from cells in view that were not hit in this tick."""
         cells = self._confidence.ravel()
         index = np.flatnonzero(cells > 0.0)  # of bools: 20 times faster than of floats
         index = index[self._gain.ravel()[index] == 0.0]
         x, y = self.lattice.centre_m(index)
         top = self._top.ravel()[index].astype(np.float64)
-        place = np.stack([x, y, top - self.ground.vehicle_m])
+        place = np.array([x, y, top - self.ground.vehicle_m])
         p = self.parameters.confidence
-        through, beside = look(views, place, p.margin_m)
+        through, beside = look(scans, place, p.margin_m)
         bare = np.zeros(cells.size, bool)
         bare[self._bare] = True
         rate = np.where(through | bare[index], p.clear_ps, np.where(beside, p.fade_ps, 0.0))
