@@ -18,6 +18,7 @@ from nav.fusion.ego_filter import (
     Drive,
     Filter,
     Y,
+    row,
 )
 from nav.fusion.ego_kinematics import (
     Attitude,
@@ -45,6 +46,9 @@ from nav.parameters.vehicle import VehicleParameters
 from nav.route.geodesy import Frame
 from nav.steering_circle import curvature
 
+STANDING, GYRO_AT_REST = row((SPEED, 1.0)), row((GYRO_BIAS, 1.0))
+COMPASS = row((COMPASS_BIAS, 1.0), (HEADING, 1.0))
+"""What is measured, whatever the state."""
 ACCELERATION_S = 0.2
 """Time constant of the acceleration that carries the speed back to a delayed fix."""
 
@@ -222,17 +226,17 @@ class EgoState:
     def _correct_speed(self, time_ns: int, speed_mps: float) -> None:
         p, v = self.parameters.wheels, float(self.filter.state[SPEED])
         scale = 1.0 + float(self.filter.state[WHEEL_SCALE])
-        row = ((SPEED, scale), (WHEEL_SCALE, v))
         variance = p.sd_mps**2 + (p.sd_share * speed_mps) ** 2
-        self.filter.correct("wheels", time_ns, row, speed_mps - scale * v, variance)
+        turning = row((SPEED, scale), (WHEEL_SCALE, v))
+        self.filter.correct("wheels", time_ns, turning, speed_mps - scale * v, variance)
 
     def _correct_at_rest(self, time_ns: int) -> None:
         """A counter without sign makes speed of noise: at rest it is 0, and so is the yaw rate."""
         p, v = self.parameters.wheels, float(self.filter.state[SPEED])
-        self.filter.correct("wheels", time_ns, ((SPEED, 1.0),), -v, p.still_sd_mps**2)
+        self.filter.correct("wheels", time_ns, STANDING, -v, p.still_sd_mps**2)
         if self._drive.gyro and abs(v) < p.still_mps:
             rate = self.filter.yaw_rate(self._drive)
-            self.filter.update(((GYRO_BIAS, 1.0),), rate, p.still_gyro_sd_radps**2)
+            self.filter.update(GYRO_AT_REST, rate, p.still_gyro_sd_radps**2)
 
     def _take_fix(self, fix: GpsFix) -> None:
         if fix.quality is GpsQuality.NONE:
@@ -264,6 +268,5 @@ class EgoState:
         heading, bias = float(self.filter.state[HEADING]), float(self.filter.state[COMPASS_BIAS])
         expected = heading - self.filter.yaw_rate(self._drive) * age + bias
         innovation = wrapped(compass.heading_rad - expected)
-        row = ((COMPASS_BIAS, 1.0), (HEADING, 1.0))
         variance = self.parameters.compass.sd_rad**2
-        self.filter.correct("compass", compass.time_ns, row, innovation, variance)
+        self.filter.correct("compass", compass.time_ns, COMPASS, innovation, variance)
