@@ -80,6 +80,7 @@ class ObstacleMap:
         self._sonar_min_m = vehicle.sonar.min_range_m
         self._footprint = _footprint(vehicle.outline, parameters.cell_m)
         self._bare = np.zeros(0, np.int64)
+        """Cells in which a steep beam has met ground in this tick."""
         self._time_ns: int | None = None
         self._placed = False
 
@@ -150,7 +151,7 @@ class ObstacleMap:
         self._follow(pose, new_bound=False)
         origin, arc = (a[heard] for a in self._sonar_arcs)
         place = (origin + arc * range_m[heard, None, None]).reshape(-1, 3)
-        x, y = _turned(place, pose)
+        x, y = _turned(place.T, pose)
         index, inside = self.lattice.index(x, y)
         index, first = np.unique(index[inside], return_index=True)
         cells = self._confidence.ravel()
@@ -209,23 +210,19 @@ class ObstacleMap:
         obstacle[first] |= stands_out
         teaching = np.zeros_like(ground)
         teaching[first] = ground[first] & ~stands_out & (distance[first] < p.teaching_range_m)
-        self._see_bare(points[:2, first][:, teaching[first] & (np.abs(bump) < p.flat_m)])
         self.ground.learn(coarse, points[2], teaching, obstacle)
+        index, inside = self.lattice.index(points[0], points[1])
+        bare = teaching[first] & (np.abs(bump) < p.flat_m) & inside[first]
+        self._bare = index.take(np.flatnonzero(bare))
         # a steep beam's height is uncertain: what only such beams have seen (a bale) counts as so
         # low that a level beam, which passes over it, does not deny it
         points[2, first] -= p.tilt_rad * distance[first]
-        return self._gather(points[:, obstacle])
+        hit = np.flatnonzero(obstacle & inside)
+        return self._gather(index.take(hit), points[2].take(hit))
 
-    def _see_bare(self, place: Floats) -> None:
-        """Cells in which a steep beam has met ground in this tick."""
-        index, inside = self.lattice.index(place[0], place[1])
-        self._bare = index[inside]
-
-    def _gather(self, points: Floats) -> Ints:
-        index, inside = self.lattice.index(points[0], points[1])
-        index = index[inside]
+    def _gather(self, index: Ints, height_m: Floats) -> Ints:
         np.add.at(self._gain.ravel(), index, np.float32(self.parameters.confidence.hit))
-        top = points[2, inside] + self.ground.vehicle_m
+        top = height_m + self.ground.vehicle_m
         # both sides of one kind: ten times faster
         np.maximum.at(self._top.ravel(), index, top.astype(np.float32))
         return index
@@ -238,8 +235,9 @@ class ObstacleMap:
 
     def _clear_footprint(self, pose: Pose) -> None:
         index, inside = self.lattice.index(*_turned(self._footprint, pose))
-        self._confidence.ravel()[index[inside]] = 0.0
-        self._top.ravel()[index[inside]] = _NO_TOP_M
+        under = index[inside]
+        self._confidence.ravel()[under] = 0.0
+        self._top.ravel()[under] = _NO_TOP_M
 
     def _decay(self, scans: Scans, elapsed_s: float) -> None:
         """Take confidence from cells in view that were not hit in this tick."""
@@ -263,18 +261,18 @@ class ObstacleMap:
 
 
 def _turned(place: Floats, pose: Pose) -> tuple[Floats, Floats]:
-    """Places of the vehicle frame, shape (n, 2 or more), east and north in N."""
+    """Places of the vehicle frame, shape (2 or more, n), east and north in N."""
     c, s = cos(pose.heading_rad), sin(pose.heading_rad)
-    x, y = place[:, 0], place[:, 1]
+    x, y = place[0], place[1]
     return pose.x_m + c * x - s * y, pose.y_m + s * x + c * y
 
 
 def _footprint(outline: Outline, cell_m: float) -> Floats:
-    """Places in the vehicle's outline, closer together than cells, shape (n, 2)."""
+    """Places in the vehicle's outline, closer together than cells, shape (2, n)."""
     length, width = outline.front_m - outline.rear_m, 2 * outline.half_width_m
     x = np.linspace(outline.rear_m, outline.front_m, int(length / cell_m * 1.5) + 1)
     y = np.linspace(-outline.half_width_m, outline.half_width_m, int(width / cell_m * 1.5) + 1)
-    return np.stack(np.meshgrid(x, y), axis=-1).reshape(-1, 2)
+    return np.stack(np.meshgrid(x, y)).reshape(2, -1)
 
 
 def _wheels(vehicle: VehicleParameters) -> Floats:
