@@ -244,6 +244,8 @@ class ObstacleMap:
         cells = self._confidence.ravel()
         index = np.flatnonzero(cells > 0.0)  # of bools: 20 times faster than of floats
         index = index[self._gain.ravel()[index] == 0.0]
+        if not index.size:
+            return
         x, y = self.lattice.centre_m(index)
         top = self._top.ravel()[index].astype(np.float64)
         place = np.array([x, y, top - self.ground.vehicle_m])
