@@ -64,6 +64,9 @@ class ObstacleMap:
         shape = (self.lattice.count, self.lattice.count)
         self._confidence = np.zeros(shape, np.float32)
         self._top = np.full(shape, _NO_TOP_M, np.float32)  # above the ground profile's datum
+        self._held = np.zeros(0, np.int64)
+        """Flat indices, ascending, of the cells that hold confidence, and some more: a hundredth
+        of all, so that nobody need look through the whole map."""
         self._gain = np.zeros(shape, np.float32)  # of this tick; zero between ticks
         self._geometry = {
             name: scan_geometry(mount, vehicle.lidar, vehicle.outline)
@@ -104,7 +107,7 @@ class ObstacleMap:
     def occupied(self) -> Occupied:
         """All cells whose confidence makes them obstacles."""
         cells = self._confidence.ravel()
-        index = np.flatnonzero(cells >= self.parameters.confidence.occupied)
+        index = self._held[cells[self._held] >= self.parameters.confidence.occupied]
         return Occupied(
             index, np.stack(self.lattice.centre_m(index), axis=1), cells[index].astype(np.float64)
         )
@@ -119,6 +122,7 @@ class ObstacleMap:
         to = self.lattice.centred(x_m, y_m)
         self._confidence = self.lattice.moved(self._confidence, to, 0.0)
         self._top = self.lattice.moved(self._top, to, _NO_TOP_M)
+        self._held = np.flatnonzero(self._confidence > 0.0)
         self.lattice = to
         self.ground.recentre(x_m, y_m)
 
@@ -155,6 +159,7 @@ class ObstacleMap:
         index, inside = self.lattice.index(x, y)
         index, first = np.unique(index[inside], return_index=True)
         cells = self._confidence.ravel()
+        self._held = _merged(self._held, index)
         lifted = np.minimum(cells[index] + p.confidence.sonar, p.confidence.sonar_limit)
         cells[index] = np.maximum(cells[index], lifted)
         top = self.ground.vehicle_m + place[inside, 2][first]
@@ -232,6 +237,7 @@ class ObstacleMap:
         most = 2 * self.parameters.confidence.hit
         cells[index] = np.minimum(cells[index] + np.minimum(gain[index], most), 1.0)
         gain[index] = 0.0
+        self._held = _merged(self._held, index)
 
     def _clear_footprint(self, pose: Pose) -> None:
         index, inside = self.lattice.index(*_turned(self._footprint, pose))
@@ -242,8 +248,8 @@ class ObstacleMap:
     def _decay(self, scans: Scans, elapsed_s: float) -> None:
         """Take confidence from cells in view that were not hit in this tick."""
         cells = self._confidence.ravel()
-        index = np.flatnonzero(cells > 0.0)  # of bools: 20 times faster than of floats
-        index = index[self._gain.ravel()[index] == 0.0]
+        self._held = self._held[cells[self._held] > 0.0]
+        index = self._held[self._gain.ravel()[self._held] == 0.0]
         if not index.size:
             return
         x, y = self.lattice.centre_m(index)
@@ -257,6 +263,15 @@ class ObstacleMap:
         left = np.maximum(cells[index] - rate * elapsed_s, 0.0)
         cells[index] = left
         self._top.ravel()[index[left == 0.0]] = _NO_TOP_M
+
+
+def _merged(held: Ints, more: Ints) -> Ints:
+    """Both, ascending and each once; np.union1d takes four times as long."""
+    both = np.concatenate([held, more])
+    both.sort()
+    first = np.ones(both.size, bool)
+    np.not_equal(both[1:], both[:-1], out=first[1:])
+    return both[first]
 
 
 # ---------------------------------------------------------------------- the vehicle
