@@ -84,10 +84,13 @@ class ObstacleMap:
         """South-west corner of cell (0, 0), route frame N, [m]."""
         return self.lattice.origin_m
 
+    def occupied_index(self) -> Ints:
+        """Where the cells are whose confidence makes them obstacles, flat, shape (n,)."""
+        return np.flatnonzero(self._confidence.ravel() >= self.parameters.confidence.occupied)
+
     def occupied(self) -> Occupied:
         """All cells whose confidence makes them obstacles."""
-        cells = self._confidence.ravel()
-        index = np.flatnonzero(cells >= self.parameters.confidence.occupied)
+        cells, index = self._confidence.ravel(), self.occupied_index()
         return Occupied(
             index, np.stack(self.lattice.centre_m(index), axis=1), cells[index].astype(np.float64)
         )

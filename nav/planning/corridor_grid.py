@@ -1,5 +1,7 @@
 """The corridor's edges on the map's lattice, as boundaries: real and safe."""
 
+from collections.abc import Sequence
+
 import numpy as np
 from numpy.typing import NDArray
 
@@ -24,6 +26,19 @@ def corridor_distance(
     for i in range(first, last):
         _draw(inside, lattice, position_m[i], position_m[i + 1], float(half_width_m[i]))
     return inside
+
+
+def edge_levels(inside_m: NDArray[np.float32], margin_m: Sequence[float]) -> NDArray[np.uint8]:
+    """How many boundaries of the corridor's edge a cell is inside of, from how far it lies inside.
+
+    Args:
+        inside_m: from `corridor_distance`.
+        margin_m: the boundaries begin this far inside the edge, from the outermost, SAFE, inwards.
+    """
+    level = np.zeros(inside_m.shape, np.uint8)
+    for margin in margin_m:
+        level += inside_m < margin
+    return level
 
 
 def _draw(
