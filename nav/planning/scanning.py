@@ -35,12 +35,12 @@ class Boundaries:
 
     def at(self, x_m: Floats, y_m: Floats) -> NDArray[np.uint8]:
         """Levels at positions of any shape; beyond the map all is free."""
-        rows, columns = self.level.shape
+        count = len(self.level)
         ix = ((x_m - self.origin_m[0]) * (1.0 / self.cell_m)).astype(np.int32)
         iy = ((y_m - self.origin_m[1]) * (1.0 / self.cell_m)).astype(np.int32)
-        outside = (ix < 0) | (iy < 0) | (ix >= columns) | (iy >= rows)
-        flat = np.where(outside, 0, iy * columns + ix)
-        return np.where(outside, 0, self.level.ravel()[flat]).astype(np.uint8)
+        # as unsigned numbers, what is negative is large: one comparison for both ends
+        inside = (ix.view(np.uint32) < count) & (iy.view(np.uint32) < count)
+        return self.level.take(iy * count + ix, mode="clip") * inside
 
 
 @dataclass(frozen=True)
@@ -66,11 +66,11 @@ class Fan:
     arc_m: Floats
     """Shape (m,), distances along a curve."""
     position_m: Floats
-    """Shape (n, m, 2), the reference point."""
+    """Shape (2, n, m), x and y of the reference point."""
     heading_rad: Floats
     """Shape (n, m)."""
     disc_m: Floats
-    """Shape (n, m, discs, 2), centres of the footprint's discs."""
+    """Shape (2, discs, n, m), x and y of the centres of the footprint's discs."""
 
 
 def fan(scanning: Scanning, footprint: Footprint, turning: Turning) -> Fan:
@@ -81,9 +81,9 @@ def fan(scanning: Scanning, footprint: Footprint, turning: Turning) -> Fan:
     heading = np.zeros_like(bend)
     np.cumsum(0.5 * (bend[:, 1:] + bend[:, :-1]) * scanning.step_m, axis=1, out=heading[:, 1:])
     middle = 0.5 * (heading[:, 1:] + heading[:, :-1])
-    position = np.zeros((*bend.shape, 2))
-    np.cumsum(scanning.step_m * np.cos(middle), axis=1, out=position[:, 1:, 0])
-    np.cumsum(scanning.step_m * np.sin(middle), axis=1, out=position[:, 1:, 1])
+    position = np.zeros((2, *bend.shape))
+    np.cumsum(scanning.step_m * np.cos(middle), axis=1, out=position[0, :, 1:])
+    np.cumsum(scanning.step_m * np.sin(middle), axis=1, out=position[1, :, 1:])
     return Fan(theta, arc, position, heading, discs(position, heading, footprint))
 
 
@@ -108,9 +108,10 @@ def _bend(theta: Floats, arc: Floats, t: Turning) -> Floats:
 
 
 def discs(position_m: Floats, heading_rad: Floats, footprint: Footprint) -> Floats:
-    """Centres of the footprint's discs, shape (..., discs, 2), for poses (..., 2) and (...)."""
-    axis = np.stack([np.cos(heading_rad), np.sin(heading_rad)], axis=-1)
-    return position_m[..., None, :] + axis[..., None, :] * np.array(footprint.disc_x_m)[:, None]
+    """Centres of the footprint's discs, shape (2, discs, ...), for poses (2, ...) and (...)."""
+    axis = np.stack([np.cos(heading_rad), np.sin(heading_rad)])
+    ahead = np.array(footprint.disc_x_m).reshape(-1, *(1 for _ in heading_rad.shape))
+    return position_m[:, None] + axis[:, None] * ahead
 
 
 class Distances(NamedTuple):
@@ -129,8 +130,8 @@ def scan(
 ) -> Distances:
     """Distances to all boundaries from a pose in the frame N."""
     c, s = np.cos(heading_rad), np.sin(heading_rad)
-    u, v = curves.disc_m[..., 0], curves.disc_m[..., 1]
-    level = boundaries.at(x_m + c * u - s * v, y_m + s * u + c * v).max(axis=-1)
+    u, v = curves.disc_m
+    level = boundaries.at(x_m + c * u - s * v, y_m + s * u + c * v).max(axis=0)
     return Distances(*(free_distance(level, curves.arc_m, b) for b in (SAFE, REAL, TOUCH)))
 
 
