@@ -47,7 +47,7 @@ def route_ahead(
     position, heading = route.position_m[part], route.heading_rad[part]
     if join_m > 0.0:
         e = _join(route.arc_m[part] - route.arc_m[first], offset_m, turned_rad, join_m)
-        left: Floats = np.stack([-np.sin(heading), np.cos(heading)], axis=1)
+        left: Floats = np.array([-np.sin(heading), np.cos(heading)]).T
         position = position + e[:, None] * left
     return sampled(position)
 

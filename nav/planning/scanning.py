@@ -109,7 +109,7 @@ def _bend(theta: Floats, arc: Floats, t: Turning) -> Floats:
 
 def discs(position_m: Floats, heading_rad: Floats, footprint: Footprint) -> Floats:
     """Centres of the footprint's discs, shape (2, discs, ...), for poses (2, ...) and (...)."""
-    axis = np.stack([np.cos(heading_rad), np.sin(heading_rad)])
+    axis = np.array([np.cos(heading_rad), np.sin(heading_rad)])
     ahead = np.array(footprint.disc_x_m).reshape(-1, *(1 for _ in heading_rad.shape))
     return position_m[:, None] + axis[:, None] * ahead
 
