@@ -56,6 +56,12 @@ def _directions(vectors: Floats) -> Floats:
     return np.unwrap(direction) if direction.max() - direction.min() > pi else direction
 
 
+def nearest_index(curve: Curve, x_m: float, y_m: float) -> int:
+    """The sample nearest to a place."""
+    dx, dy = curve.position_m[:, 0] - x_m, curve.position_m[:, 1] - y_m
+    return int((dx * dx + dy * dy).argmin())
+
+
 def resampled(curve: Curve, arc_m: Floats) -> Floats:
     """Positions (n, 2) at arcs (n,) by linear interpolation."""
     x = np.interp(arc_m, curve.arc_m, curve.position_m[:, 0])

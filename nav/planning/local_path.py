@@ -91,4 +91,7 @@ def clear_distances(curve: Curve, boundaries: Boundaries, footprint: Footprint) 
     """How far a curve is free of each boundary."""
     x, y = discs(curve.position_m.T, curve.heading_rad, footprint)
     level = boundaries.at(x, y).max(axis=0)[None, :]
+    if not level.any():  # mostly
+        end = float(curve.arc_m[-1])
+        return Clear(end, end, end)
     return Clear(*(float(free_distance(level, curve.arc_m, b)[0]) for b in (SAFE, REAL, TOUCH)))
