@@ -144,7 +144,8 @@ def free_distance(level: NDArray[np.uint8], arc_m: Floats, boundary: int) -> Flo
     if blocked[:, 0].any():
         blocked &= ~_leaving(level, blocked, arc_m, ESCAPE_SLACK_M[boundary])
     first = blocked.argmax(axis=-1)
-    return np.where(blocked.any(axis=-1), arc_m[first], arc_m[-1])
+    met = blocked[np.arange(len(first)), first]
+    return np.where(met, arc_m[first], arc_m[-1])
 
 
 def _leaving(
