@@ -75,7 +75,7 @@ def _join(arc_m: Floats, offset_m: float, turned_rad: float, join_m: float) -> F
 def towards(curves: Fan, row: int, x_m: float, y_m: float, heading_rad: float) -> Curve:
     """The fan's curve of a direction, placed at a pose."""
     c, s = cos(heading_rad), sin(heading_rad)
-    u, v = curves.position_m[:, row]
+    u, v = curves.position_m[:, row].astype(np.float64)
     return sampled(np.stack([x_m + c * u - s * v, y_m + s * u + c * v], axis=1))
 
 
