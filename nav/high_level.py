@@ -5,11 +5,11 @@ from math import atan2
 
 import numpy as np
 
+from nav.angles import wrapped
 from nav.fusion.lattice import Ints
 from nav.fusion.obstacle_map import ObstacleMap
 from nav.messages import Decision, DirectCommand, EgoEstimate, Floats, FollowPath
 from nav.parameters import Parameters
-from nav.planning.angles import wrapped
 from nav.planning.boundaries import Cells, boundaries
 from nav.planning.corridor_grid import corridor_distance, edge_levels
 from nav.planning.curve import Curve

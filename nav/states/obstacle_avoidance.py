@@ -8,8 +8,8 @@ would mean a stop before every sharp turn.
 
 import numpy as np
 
+from nav.angles import wrapped
 from nav.parameters import Parameters
-from nav.planning.angles import wrapped
 from nav.planning.local_path import path_length, pathpoints, towards
 from nav.planning.scanning import Turning, fan, scan
 from nav.planning.speed import set_point
