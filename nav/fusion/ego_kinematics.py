@@ -63,8 +63,3 @@ def rocking(offset_m: tuple[float, float, float], attitude: Attitude) -> tuple[f
     x, y, z = offset_m
     p, q, r = attitude.rate_radps
     return q * z - r * y, r * x - p * z
-
-
-def wrapped(angle_rad: float) -> float:
-    """The same angle in (-pi, pi]."""
-    return -((math.pi - angle_rad) % (2.0 * math.pi) - math.pi)

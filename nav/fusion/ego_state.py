@@ -7,6 +7,7 @@ corrects it. Any sensor may be missing but the GPS, without which there is no st
 import math
 from dataclasses import dataclass
 
+from nav.angles import wrapped
 from nav.fusion import ego_gps
 from nav.fusion.attitude_history import SILENT_S, AttitudeHistory
 from nav.fusion.ego_filter import (
@@ -26,7 +27,6 @@ from nav.fusion.ego_kinematics import (
     heading_rate,
     level,
     speed_of_wheels,
-    wrapped,
 )
 from nav.fusion.ego_start import Start
 from nav.fusion.erection import Erection

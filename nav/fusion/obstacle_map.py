@@ -104,10 +104,14 @@ class ObstacleMap:
         """South-west corner of cell (0, 0), route frame N, [m]."""
         return self.lattice.origin_m
 
+    def occupied_index(self) -> Ints:
+        """Where the cells are whose confidence makes them obstacles, flat, shape (n,)."""
+        confidence = self._confidence.ravel()[self._held]
+        return self._held[confidence >= self.parameters.confidence.occupied]
+
     def occupied(self) -> Occupied:
         """All cells whose confidence makes them obstacles."""
-        cells = self._confidence.ravel()
-        index = self._held[cells[self._held] >= self.parameters.confidence.occupied]
+        cells, index = self._confidence.ravel(), self.occupied_index()
         return Occupied(
             index, np.stack(self.lattice.centre_m(index), axis=1), cells[index].astype(np.float64)
         )
