@@ -87,7 +87,9 @@ class HighLevelController:
         local = self.parameters.planning.local_path
         turned = wrapped(ego.heading_rad - float(self.route.heading_rad[here.index]))
         join_m = join_length(here.cross_track_m, ego.speed_mps, rate, local)
-        return route_ahead(self.route, here.index, here.cross_track_m, turned, join_m)
+        return route_ahead(
+            self.route, here.index, here.cross_track_m, turned, join_m, local.look_ahead_m
+        )
 
     def _goal(self, ego: EgoEstimate) -> float:
         """phi(k): towards a point of the smooth path some seconds ahead."""

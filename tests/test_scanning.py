@@ -28,29 +28,35 @@ def boundaries(*blocks: tuple[float, float, float, float, int]) -> Boundaries:
 
 def test_free_ground_is_free_in_all_directions():
     curves = fan(P.scanning, P.footprint, SLOW)
-    safe, real, _ = scan(curves, boundaries(), 0.0, 0.0, 0.3)
+    safe, real, _ = scan(curves, boundaries(), P.footprint, 0.0, 0.0, 0.3)
     assert (real == P.scanning.max_distance_m).all()
     assert (safe == P.scanning.max_distance_m).all()
 
 
 def test_wall_ahead_is_met_by_the_front_of_the_vehicle():
     curves = fan(P.scanning, P.footprint, SLOW)
-    _, real, _ = scan(curves, boundaries((15.0, 16.0, -30.0, 30.0, REAL)), 0.0, 0.0, 0.0)
+    _, real, _ = scan(
+        curves, boundaries((15.0, 16.0, -30.0, 30.0, REAL)), P.footprint, 0.0, 0.0, 0.0
+    )
     ahead = real[len(real) // 2]
     assert ahead == pytest.approx(15.0 - max(P.footprint.disc_x_m), abs=P.scanning.step_m)
 
 
 def test_safe_boundary_does_not_block_the_real_distance():
     curves = fan(P.scanning, P.footprint, SLOW)
-    safe, real, _ = scan(curves, boundaries((10.0, 12.0, -30.0, 30.0, SAFE)), 0.0, 0.0, 0.0)
+    safe, real, _ = scan(
+        curves, boundaries((10.0, 12.0, -30.0, 30.0, SAFE)), P.footprint, 0.0, 0.0, 0.0
+    )
     assert (real == P.scanning.max_distance_m).all()
     assert safe[len(safe) // 2] < 10.0
 
 
 def test_mirrored_world_gives_mirrored_distances():
     curves = fan(P.scanning, P.footprint, SLOW)
-    _, left, _ = scan(curves, boundaries((8.0, 12.0, 0.6, 4.0, REAL)), 0.0, 0.0, 0.0)
-    _, right, _ = scan(curves, boundaries((8.0, 12.0, -4.0, -0.6, REAL)), 0.0, 0.0, 0.0)
+    _, left, _ = scan(curves, boundaries((8.0, 12.0, 0.6, 4.0, REAL)), P.footprint, 0.0, 0.0, 0.0)
+    _, right, _ = scan(
+        curves, boundaries((8.0, 12.0, -4.0, -0.6, REAL)), P.footprint, 0.0, 0.0, 0.0
+    )
     np.testing.assert_array_equal(left, right[::-1])
     assert (left != right).any()
 
@@ -70,10 +76,10 @@ def test_vehicle_inside_a_boundary_may_leave_it_but_not_cross_a_wall():
     arc = np.arange(0.0, 10.0, 0.5)
     level = np.zeros((1, 20), np.uint8)
     level[0, :5] = REAL
-    assert free_distance(level, arc, REAL)[0] == arc[-1]
+    assert free_distance(level, arc, REAL, P.footprint)[0] == arc[-1]
     for boundary, samples in ((REAL, 9), (TOUCH, 3)):
         level[0, :samples] = boundary
-        assert free_distance(level, arc, REAL)[0] == 0.0
+        assert free_distance(level, arc, REAL, P.footprint)[0] == 0.0
 
 
 def test_vehicle_leaves_the_real_boundary_by_the_soonest_way():
@@ -81,7 +87,9 @@ def test_vehicle_leaves_the_real_boundary_by_the_soonest_way():
     level = np.zeros((3, 20), np.uint8)
     for row, samples in enumerate((1, 3, 6)):
         level[row, :samples] = REAL
-    np.testing.assert_array_equal(free_distance(level, arc, REAL), [arc[-1], arc[-1], 0.0])
+    np.testing.assert_array_equal(
+        free_distance(level, arc, REAL, P.footprint), [arc[-1], arc[-1], 0.0]
+    )
 
 
 def test_corridor_depth_is_half_width_less_distance():

@@ -260,7 +260,7 @@ class ObstacleMap:
         top = self._top.ravel()[index].astype(np.float64)
         place = np.array([x, y, top - self.ground.vehicle_m])
         p = self.parameters.confidence
-        through, beside = look(scans, place, p.margin_m)
+        through, beside = look(scans, place, p.margin_m, p.low_m)
         bare = np.zeros(cells.size, bool)
         bare[self._bare] = True
         rate = np.where(through | bare[index], p.clear_ps, np.where(beside, p.fade_ps, 0.0))

@@ -7,12 +7,10 @@ from nav.fusion.lattice import Ints
 from nav.fusion.scan_geometry import Scans
 from nav.messages import Floats
 
-LOW_M = 0.5
-"""What is lower than this lies below the beams of the scanner on the bumper (0.55 m)."""
 Bools = NDArray[np.bool_]
 
 
-def look(scans: Scans, place: Floats, margin_m: float) -> tuple[Bools, Bools]:
+def look(scans: Scans, place: Floats, margin_m: float, low_m: float) -> tuple[Bools, Bools]:
     """What k scans say of n cells at `place` (east, north, top), shape (3, n).
 
     Returns:
@@ -28,7 +26,7 @@ def look(scans: Scans, place: Floats, margin_m: float) -> tuple[Bools, Bools]:
     distance = np.sqrt(x * x + y * y)
     beam, inside = _beam(scans, x, y)
     height = z + distance * (rise / level)[:, 1:-1].ravel().take(beam)
-    low = inside & (height <= place[2] + _slack_m(place[2], distance))
+    low = inside & (height <= place[2] + _slack_m(place[2], distance, low_m))
     over = nearest.take(beam) - distance
     through = (low & (over > margin_m)).any(axis=0)
     spread = (farthest - nearest).take(beam)  # when grazing, returns lie far apart
@@ -36,13 +34,13 @@ def look(scans: Scans, place: Floats, margin_m: float) -> tuple[Bools, Bools]:
     return through, beside & ~through
 
 
-def _slack_m(top_m: Floats, distance_m: Floats) -> Floats:
+def _slack_m(top_m: Floats, distance_m: Floats, low_m: float) -> Floats:
     """How far above a cell's top a beam may pass and still deny it; shapes broadcast.
 
     Tall things are denied by a beam at the height at which they were seen. A level beam just over
     a bale must not deny it: for low things the beam must pass clearly below the top.
     """
-    return np.where(top_m < LOW_M, -0.03 - 0.004 * distance_m, 0.02 + 0.002 * distance_m)
+    return np.where(top_m < low_m, -0.03 - 0.004 * distance_m, 0.02 + 0.002 * distance_m)
 
 
 def _beam(scans: Scans, x: Floats, y: Floats) -> tuple[Ints, Bools]:

@@ -52,6 +52,8 @@ class ConfidenceParameters:
     """Loss where a beam ends at the cell's distance and never in it, [1/s]."""
     margin_m: float
     """How far a beam must go on beyond a cell to have passed it."""
+    low_m: float
+    """What is lower than this lies below the beams of all level scanners."""
     sonar: float
     """One echo."""
     sonar_limit: float

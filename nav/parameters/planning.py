@@ -20,6 +20,12 @@ class Footprint:
     corridor_real_m: float
     """... and this far is aimed at."""
     corridor_safe_m: float
+    escape_m: float
+    """A vehicle that stands inside a boundary may take this far to leave it ..."""
+    escape_slack_m: float
+    """... inside the real one not this much longer than the direction that leaves it soonest ..."""
+    escape_touch_m: float
+    """... and this far where the outline itself seems to touch, for the map is not exact."""
 
 
 @dataclass(frozen=True)
@@ -44,6 +50,10 @@ class Scanning:
 class LocalPathParameters:
     """The ten pathpoints of section 6.4."""
 
+    look_ahead_m: float
+    """The route is looked at this far ahead."""
+    shortest_m: float
+    """A path is at least this long, however near the obstacle."""
     horizon_s: float
     min_length_m: float
     max_length_m: float

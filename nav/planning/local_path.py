@@ -15,8 +15,6 @@ from nav.route.smooth_path import SmoothPath
 PATHPOINTS = 10
 FIFTH = 4
 """Index of the pathpoint at which a new local path is due (Fig. 6.4)."""
-AHEAD_M = 30.0
-"""The route is looked at this far ahead."""
 
 
 def path_length(speed_mps: float, p: LocalPathParameters) -> float:
@@ -30,7 +28,12 @@ def pathpoints(curve: Curve, length_m: float) -> Floats:
 
 
 def route_ahead(
-    route: SmoothPath, index: int, offset_m: float, turned_rad: float, join_m: float
+    route: SmoothPath,
+    index: int,
+    offset_m: float,
+    turned_rad: float,
+    join_m: float,
+    look_ahead_m: float,
 ) -> Curve:
     """The smooth path from sample `index` on, joined from the vehicle's offset and heading.
 
@@ -40,9 +43,10 @@ def route_ahead(
         offset_m: how far left of the path the vehicle is; taken back on a cubic ...
         turned_rad: ... that starts this far left of the path's heading ...
         join_m: ... and takes this way; 0 where the vehicle is on the path.
+        look_ahead_m: how much of it.
     """
     first = min(index, len(route.arc_m) - 2)
-    end = int(np.searchsorted(route.arc_m, float(route.arc_m[first]) + AHEAD_M)) + 1
+    end = int(np.searchsorted(route.arc_m, float(route.arc_m[first]) + look_ahead_m)) + 1
     part = slice(first, max(end, first + 2))
     position, heading = route.position_m[part], route.heading_rad[part]
     if join_m > 0.0:
@@ -94,4 +98,5 @@ def clear_distances(curve: Curve, boundaries: Boundaries, footprint: Footprint) 
     if not level.any():  # mostly
         end = float(curve.arc_m[-1])
         return Clear(end, end, end)
-    return Clear(*(float(free_distance(level, curve.arc_m, b)[0]) for b in (SAFE, REAL, TOUCH)))
+    arc, three = curve.arc_m, (SAFE, REAL, TOUCH)
+    return Clear(*(float(free_distance(level, arc, b, footprint)[0]) for b in three))

@@ -20,13 +20,6 @@ from nav.planning.boundaries import REAL, SAFE, TOUCH
 Singles = NDArray[np.float32]
 Reals = TypeVar("Reals", Floats, Singles)
 
-ESCAPE_M = 4.0
-"""A vehicle that stands inside a boundary may take this far to leave it ..."""
-ESCAPE_TOUCH_M = 0.5
-"""... this far where the outline itself seems to touch, for the map is not exact ..."""
-ESCAPE_SLACK_M = {SAFE: ESCAPE_M, REAL: 1.0, TOUCH: ESCAPE_TOUCH_M}
-"""... and not this much longer than the direction that leaves it soonest."""
-
 
 @dataclass(frozen=True, eq=False)
 class Boundaries:
@@ -139,7 +132,12 @@ class Distances(NamedTuple):
 
 
 def scan(
-    curves: Fan, boundaries: Boundaries, x_m: float, y_m: float, heading_rad: float
+    curves: Fan,
+    boundaries: Boundaries,
+    footprint: Footprint,
+    x_m: float,
+    y_m: float,
+    heading_rad: float,
 ) -> Distances:
     """Distances to all boundaries from a pose in the frame N."""
     per_m = 1.0 / boundaries.cell_m
@@ -147,29 +145,37 @@ def scan(
     c, s = cos(heading_rad) * per_m, sin(heading_rad) * per_m
     u, v = curves.disc_m
     level = boundaries.of_cells(column + c * u - s * v, row + s * u + c * v).max(axis=0)
-    return Distances(*(free_distance(level, curves.arc_m, b) for b in (SAFE, REAL, TOUCH)))
+    arc, three = curves.arc_m, (SAFE, REAL, TOUCH)
+    return Distances(*(free_distance(level, arc, b, footprint) for b in three))
 
 
-def free_distance(level: NDArray[np.uint8], arc_m: Floats, boundary: int) -> Floats:
+def free_distance(
+    level: NDArray[np.uint8], arc_m: Floats, boundary: int, footprint: Footprint
+) -> Floats:
     """Distance to the first sample at or above `boundary`, shape (n,) for levels (n, m).
 
     Rows that start inside the boundary are free where they leave it soon enough.
     """
     blocked = level >= boundary
     if blocked[:, 0].any():
-        blocked &= ~_leaving(level, blocked, arc_m, ESCAPE_SLACK_M[boundary])
+        blocked &= ~_leaving(level, blocked, arc_m, boundary, footprint)
     first = blocked.argmax(axis=-1)
     met = blocked[np.arange(len(first)), first]
     return np.where(met, arc_m[first], arc_m[-1])
 
 
 def _leaving(
-    level: NDArray[np.uint8], blocked: NDArray[np.bool_], arc_m: Floats, slack_m: float
+    level: NDArray[np.uint8],
+    blocked: NDArray[np.bool_],
+    arc_m: Floats,
+    boundary: int,
+    foot: Footprint,
 ) -> NDArray[np.bool_]:
     """The samples (n, m) by which a row that starts inside a boundary leaves it in time."""
     inside = np.logical_and.accumulate(blocked, axis=-1)
     way = arc_m[np.minimum(inside.sum(axis=-1), len(arc_m) - 1)]
-    scrapes = (inside & (level >= TOUCH) & (arc_m >= ESCAPE_TOUCH_M)).any(axis=-1)
+    scrapes = (inside & (level >= TOUCH) & (arc_m >= foot.escape_touch_m)).any(axis=-1)
     way = np.where(scrapes, np.inf, way)
-    in_time = way <= min(float(way.min()) + slack_m, ESCAPE_M)
+    slack = {SAFE: foot.escape_m, REAL: foot.escape_slack_m, TOUCH: foot.escape_touch_m}
+    in_time = way <= min(float(way.min()) + slack[boundary], foot.escape_m)
     return inside & in_time[:, None]

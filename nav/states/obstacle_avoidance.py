@@ -27,7 +27,7 @@ def plan(s: Situation, memory: Memory, p: Parameters) -> Plan:
     ego = s.ego
     x, y = (float(v) for v in ego.position_m)
     curves = fan(p.planning.scanning, p.planning.footprint, _turning(s, p))
-    distances = scan(curves, s.boundaries, x, y, ego.heading_rad)
+    distances = scan(curves, s.boundaries, p.planning.footprint, x, y, ego.heading_rad)
     reason = due(s, memory, p)
     theta = curves.theta_rad + ego.heading_rad
     decision = decide(
@@ -47,7 +47,7 @@ def plan(s: Situation, memory: Memory, p: Parameters) -> Plan:
             path_length(ego.speed_mps, p.planning.local_path), float(distances.real_m[row])
         )
         path = towards(curves, row, x, y, ego.heading_rad)
-        memory.follow(pathpoints(path, max(length, 1.0)), s.waypoint)
+        memory.follow(pathpoints(path, max(length, p.planning.local_path.shortest_m)), s.waypoint)
     assert memory.pathpoint_m is not None
     D = float(distances.touch_m[row])
     D1 = distance_ahead(s, memory, D, p)

@@ -4,7 +4,7 @@ from math import sqrt
 
 from nav.angles import wrapped
 from nav.parameters import Parameters
-from nav.planning.local_path import AHEAD_M, path_length, pathpoints
+from nav.planning.local_path import path_length, pathpoints
 from nav.planning.speed import set_point
 from nav.states.memory import Memory
 from nav.states.replanning import due
@@ -24,7 +24,8 @@ def plan(s: Situation, memory: Memory, p: Parameters) -> Plan:
     turn = abs(wrapped(direction - s.ego.heading_rad))
     limit = min(s.V0_mps, _through_narrows(s, p))
     clear = s.route_clear.real_m
-    distance = clear if clear < s.route_ahead.arc_m[-1] else AHEAD_M  # the finish is no obstacle
+    blocked = clear < s.route_ahead.arc_m[-1]  # the finish is no obstacle
+    distance = clear if blocked else p.planning.local_path.look_ahead_m
     speed = set_point(distance, distance, turn, limit, "safe", p.speed).speed_mps
     return Plan(memory.pathpoint_m, speed, distance, distance, direction, replanned=reason)
 
