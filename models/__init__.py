@@ -1,8 +1,10 @@
-"""MJCF of the vehicle, and the table of where each number comes from."""
+"""MJCF of the vehicles, and the table of where each number comes from."""
 
 from importlib import resources
 
+RANGER = "polaris_ranger_6x6"
 
-def path() -> str:
-    """The file of the vehicle's MJCF; works from a checkout and from an installed wheel."""
-    return str(resources.files(__name__) / "polaris_ranger_6x6.xml")
+
+def path(model: str = RANGER) -> str:
+    """The file of a vehicle's MJCF; works from a checkout and from an installed wheel."""
+    return str(resources.files(__name__) / f"{model}.xml")

@@ -14,7 +14,7 @@ YIELDING = frozenset({"brush"})
 SHAPES = {"box": mujoco.mjtGeom.mjGEOM_BOX, "cylinder": mujoco.mjtGeom.mjGEOM_CYLINDER}
 
 
-def compile(world: World, window: TerrainWindow) -> mujoco.MjModel:
+def compile(world: World, window: TerrainWindow, vehicle: str = models.RANGER) -> mujoco.MjModel:
     """Build the model of the vehicle on this world's ground.
 
     The tires' own friction is nearly nothing, so the larger value rules: the ground's.
@@ -22,11 +22,12 @@ def compile(world: World, window: TerrainWindow) -> mujoco.MjModel:
     Args:
         world: each obstacle becomes one static geom of the same name.
         window: the ground around the vehicle; later call `window.write_hfield` when it scrolls.
+        vehicle: one of `models`.
 
     Raises:
         ValueError: an obstacle of an unknown shape, or ground too steep for the height field.
     """
-    spec = mujoco.MjSpec.from_file(models.path())
+    spec = mujoco.MjSpec.from_file(models.path(vehicle))
     _add_ground(spec, window, world.friction)
     for obstacle in world.obstacles:
         _add_obstacle(spec, obstacle, world.friction)

@@ -1,11 +1,18 @@
 """The twin: a vehicle with its sensors in one world, advanced one navigator tick at a time."""
 
+from collections.abc import Callable, Mapping
+from typing import NamedTuple
+
+import mujoco
 import numpy as np
 
+import models
 from nav.messages import ActuatorTargets, SensorMessage
 from twin import assembly, clock
+from twin.body import Body, Start
 from twin.plant import Plant
 from twin.raycast import Scene
+from twin.sensors.parameters import SensorParameters, sensor_parameters
 from twin.sensors.suite import SensorSuite
 from twin.terrain import TerrainWindow
 from twin.truth import Truth
@@ -15,18 +22,37 @@ TICK_STEPS = 6
 """Physics steps in one navigator tick of 20 ms."""
 
 
+class Kind(NamedTuple):
+    """What makes a vehicle the one that it is."""
+
+    model: str
+    """One of `models`."""
+    plant: Callable[[mujoco.MjModel, Start, int, Mapping[str, str]], Body]
+    """Drives it in a compiled model, from a start, with a seed, among the owners of geoms."""
+    sensors: Callable[[], SensorParameters]
+
+
+RANGER = Kind(models.RANGER, Plant, sensor_parameters)
+
+
 class Simulator:
     """One world in motion. Picklable in the middle; goes on with the same bits."""
 
-    def __init__(self, world: World, seed: int, disabled: frozenset[str] = frozenset()) -> None:
+    def __init__(
+        self,
+        world: World,
+        seed: int,
+        disabled: frozenset[str] = frozenset(),
+        kind: Kind = RANGER,
+    ) -> None:
         x, y, heading = world.start
         self.window = TerrainWindow(world.terrain, x, y)
-        model = assembly.compile(world, self.window)
+        model = assembly.compile(world, self.window, kind.model)
         self.scene = Scene(world.obstacles)
         self._see_ground()
         ground = float(world.terrain.height(np.array([x]), np.array([y]))[0])
-        self.plant = Plant(model, (x, y, ground, heading), seed, assembly.owners(world))
-        self.sensors = SensorSuite(world, self.scene, seed, disabled)
+        self.plant = kind.plant(model, (x, y, ground, heading), seed, assembly.owners(world))
+        self.sensors = SensorSuite(world, self.scene, seed, disabled, kind.sensors())
 
     @property
     def time_ns(self) -> int:

@@ -22,7 +22,7 @@ class Truth:
     speed_mps: float
     """Along the vehicle's x axis, signed."""
     tire_center_m: Floats
-    """Shape (6, 3), front left, front right, middle l, r, rear l, r."""
+    """Shape (n, 3), from front left and front right to rear left and rear right."""
     contacts: tuple[str, ...]
     """Owners of the obstacles that the vehicle touched in the last 20 ms, and `ground` where its
     chassis touched the ground."""

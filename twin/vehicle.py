@@ -1,13 +1,13 @@
-"""The Ranger in the compiled model: names, indices, and the geometry of its steering.
+"""The Ranger in the compiled model: names, and the geometry of its steering.
 
 Numbers with unit, source and grade: models/README.md.
 """
 
 from math import atan, tan
-from typing import NamedTuple
 
 import mujoco
 import numpy as np
+from numpy.typing import NDArray
 
 AXLES = ("front", "middle", "rear")
 SIDES = ("left", "right")
@@ -66,46 +66,19 @@ def tire_contact(speed_mps: float) -> tuple[tuple[float, float], tuple[float, fl
     return (-TIRE_STIFFNESS_PER_S2 * d * d, -TIRE_DAMPING_PER_S * d), (d, d)
 
 
-class Indices(NamedTuple):
-    """Where the vehicle's parts are in the model's arrays; wheels in the order of WHEELS."""
-
-    body: int
-    free_qpos: int
-    free_dof: int
-    spin_dof: np.ndarray
-    actuators: slice
-    """Angles of the front wheels, left and right [rad], then drive torques of WHEELS [N m]."""
-    wheel_body: np.ndarray
-    tire_geom: np.ndarray
-    gyro: int
-    accelerometer: int
-    site: dict[str, int]
-
-
-def indices(model: mujoco.MjModel) -> Indices:
-    """Look the vehicle up by name.
+def actuators(model: mujoco.MjModel) -> slice:
+    """Angles of the front wheels, left and right [rad], then drive torques of WHEELS [N m].
 
     Raises:
-        KeyError: the model holds no Ranger; MuJoCo's message lists the names that exist.
+        ValueError: they do not stand in this order.
     """
-    free = model.joint("ranger_free")
-    return Indices(
-        body=model.body("ranger").id,
-        free_qpos=int(free.qposadr[0]),
-        free_dof=int(free.dofadr[0]),
-        spin_dof=np.array([model.joint(f"{w}_spin").dofadr[0] for w in WHEELS]),
-        actuators=_actuators(model),
-        wheel_body=np.array([model.body(f"{w}_wheel").id for w in WHEELS]),
-        tire_geom=np.array([model.geom(f"{w}_tire").id for w in WHEELS]),
-        gyro=int(model.sensor("imu_gyro").adr[0]),
-        accelerometer=int(model.sensor("imu_accelerometer").adr[0]),
-        site={model.site(i).name: i for i in range(model.nsite)},
-    )
-
-
-def _actuators(model: mujoco.MjModel) -> slice:
     names = [f"front_{s}_steer" for s in SIDES] + [f"{w}_drive" for w in WHEELS]
     first = model.actuator(names[0]).id
     if [model.actuator(name).id for name in names] != list(range(first, first + len(names))):
         raise ValueError(f"actuators out of order: expected {', '.join(names)} in a row")
     return slice(first, first + len(names))
+
+
+def tire_geoms(model: mujoco.MjModel) -> NDArray[np.int64]:
+    """Ids of the tires of WHEELS."""
+    return np.array([model.geom(f"{w}_tire").id for w in WHEELS])

@@ -1,4 +1,4 @@
-"""`sensors.toml` as frozen structs; unknown keys are refused."""
+"""`sensors.toml`, and another vehicle's file, as frozen structs; unknown keys are refused."""
 
 from pathlib import Path
 
@@ -108,12 +108,11 @@ class SensorParameters(_Strict, frozen=True):
     odometry: OdometryParameters
 
 
-def sensor_parameters(text: str | None = None) -> SensorParameters:
-    """Parameters from TOML text, by default from the file beside this one.
+def sensor_parameters(name: str = "sensors.toml") -> SensorParameters:
+    """Parameters from a file beside this one.
 
     Raises:
         msgspec.ValidationError: an unknown or missing key or a wrong type; names its path.
     """
-    if text is None:
-        text = Path(__file__).with_name("sensors.toml").read_text(encoding="utf-8")
+    text = Path(__file__).with_name(name).read_text(encoding="utf-8")
     return msgspec.toml.decode(text, type=SensorParameters)
