@@ -2,7 +2,7 @@
 
 from importlib import resources
 
-RANGER = "polaris_ranger_6x6"
+RANGER, PIONEER = "polaris_ranger_6x6", "pioneer_p3at"
 
 
 def path(model: str = RANGER) -> str:

@@ -73,9 +73,9 @@ class DriveByWire:
         if not isfinite(targets.steering_rad + targets.throttle + targets.brake):
             return
         limit = p.steering_limit_rad
-        self._steering.put(time_ns, _clip(targets.steering_rad, -limit, limit))
-        self._throttle.put(time_ns, _clip(targets.throttle, 0.0, 1.0))
-        self._brake.put(time_ns, _clip(targets.brake, 0.0, 1.0))
+        self._steering.put(time_ns, clip(targets.steering_rad, -limit, limit))
+        self._throttle.put(time_ns, clip(targets.throttle, 0.0, 1.0))
+        self._brake.put(time_ns, clip(targets.brake, 0.0, 1.0))
         self._gear = Gear(targets.gear)
         self._alive_until_ns = time_ns + round(p.timeout_s * 1e9)
 
@@ -86,9 +86,9 @@ class DriveByWire:
             self._stop()
         gearbox.step(self._gear, speed_mps, dt)
         self.applied = Applied(
-            _towards(was.steering_rad, self._steering.get(time_ns), p.steering_rate_radps * dt),
-            _towards(was.throttle, self._throttle.get(time_ns), p.throttle_rate_per_s * dt),
-            _towards(was.brake, self._brake.get(time_ns), p.brake_rate_per_s * dt),
+            towards(was.steering_rad, self._steering.get(time_ns), p.steering_rate_radps * dt),
+            towards(was.throttle, self._throttle.get(time_ns), p.throttle_rate_per_s * dt),
+            towards(was.brake, self._brake.get(time_ns), p.brake_rate_per_s * dt),
             int(gearbox.gear),
             gearbox.shifting,
         )
@@ -100,11 +100,13 @@ class DriveByWire:
         self._gear = self.gearbox.gear
 
 
-def _clip(value: float, low: float, high: float) -> float:
+def clip(value: float, low: float, high: float) -> float:
+    """The nearest value within both ends."""
     return min(max(value, low), high)
 
 
-def _towards(value: float, target: float, step: float) -> float:
+def towards(value: float, target: float, step: float) -> float:
+    """Where a value is that goes to a target by at most a step."""
     if value == target:
         return value
-    return value + _clip(target - value, -step, step)
+    return value + clip(target - value, -step, step)
