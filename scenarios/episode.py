@@ -43,7 +43,7 @@ class Episode:
         texts = parameter_texts(course.vehicle)
         chosen = nav_parameters or parameters_from(texts, course.vehicle)
         self.navigator = IonNavigator(chosen, route)
-        self.simulator = vehicle.twin(course.world, seed, disabled_sensors(ablate))
+        self.simulator = vehicle.twin(course.world, seed, disabled_sensors(ablate, vehicle.lidars))
         self.judge = Judge(course, outline=vehicle.outline)
         self.digest = Digest()
         self.truth: Truth = self.simulator.truth()
@@ -95,5 +95,6 @@ class Episode:
             "outcome": self.outcome,
             "sim_time_s": round(self.time_s, 3),
             **self.judge.figures(),
+            **self.course.facts,
             "digest": self.digest.hex(),
         }

@@ -6,7 +6,9 @@ from typing import Protocol
 
 from nav.messages import ActuatorTargets, SensorMessage
 from nav.parameters import ION
+from scenarios.ablation import LIDARS
 from scenarios.verdicts.shapes import Outline
+from twin import pioneer
 from twin.simulator import Simulator
 from twin.truth import Truth
 from twin.world import World
@@ -37,7 +39,13 @@ class Vehicle:
     """Builds it from the world, the seed, and the sensors that are silent."""
     outline: Outline
     """What the judge measures clearance from."""
+    height_m: float = 1.98
+    lidars: tuple[str, ...] = LIDARS
+    """The names of its scanners."""
 
 
-VEHICLES = {ION: Vehicle(Simulator, Outline())}
+VEHICLES = {
+    ION: Vehicle(Simulator, Outline()),
+    "pioneer": Vehicle(pioneer.simulator, Outline(0.254, -0.254, 0.2485), 0.46, ("lidar_deck",)),
+}
 """By the name that a course gives, which is also that of the navigator's parameter file."""
