@@ -17,8 +17,6 @@ if TYPE_CHECKING:
     from scenarios.episode import Episode
     from tape.writer import TapeWriter
 
-METERS_A_MILE = 1609.344
-
 
 @dataclass(frozen=True)
 class Job:
@@ -89,19 +87,23 @@ def _stop_when_asked(episode: "Episode", records: object) -> None:
 
 
 def _view(vehicle: str) -> Any:
-    """Draws `/view/`, knowing where a vehicle's scanners sit."""
+    """Draws `/view/`, knowing a vehicle's size and where its scanners sit."""
     from nav.parameters import parameters_from
     from scenarios.parameter_files import parameter_texts
+    from scenarios.vehicles import VEHICLES
     from tape.view import View
 
-    texts = parameter_texts(vehicle)
-    return View(parameters_from(texts, vehicle).vehicle.lidar_mounts)
+    mounts = parameters_from(parameter_texts(vehicle), vehicle).vehicle.lidar_mounts
+    front, rear, half_width = VEHICLES[vehicle].outline
+    return View(mounts, (front, rear, half_width, VEHICLES[vehicle].height_m))
 
 
 def _title(course: str, seed: int, figures: dict[str, Any]) -> str:
+    from ion.report import way
+
     minutes, seconds = divmod(round(figures["sim_time_s"]), 60)
     gates = f"{figures['gates_passed']} of {figures['gates_total']} gates, "
     return (
         f"{course}\nSeed {seed}: {figures['outcome']}, {gates if figures['gates_total'] else ''}"
-        f"{figures['distance_m'] / METERS_A_MILE:.2f} miles in {minutes}:{seconds:02d} min"
+        f"{way(figures['distance_m'])} in {minutes}:{seconds:02d} min"
     )

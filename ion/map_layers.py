@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from nav.route.rddf import MPH_MPS
 from scenarios.course import Course
-from scenarios.verdicts.shapes import footprints
+from scenarios.verdicts.shapes import Outline, footprints
 from twin.world import SOFT, Obstacle
 
 Floats = NDArray[np.float64]
@@ -18,13 +18,17 @@ Floats = NDArray[np.float64]
 PAPER, SAND, EDGE, INK = "#fbfaf7", "#f0e8d6", "#d8c9a6", "#33322e"
 PASSED, MISSED, AHEAD = "#2f7d4f", "#c0392b", "#a5a89f"
 SEEN, HARD, TUNNEL = "#e0701f", "#77736b", "#8fa3b8"
-SPEED_MAP, TRACK, TOP_MPH = "viridis", "#21918c", 25.0
+SPEED_MAP, TRACK = "viridis", "#21918c"
+EDGE_LENGTHS = 0.1
+"""Width of the corridor's edge, in lengths of the vehicle."""
 
 
 class Scene(NamedTuple):
     """All that a map shows, world frame."""
 
     course: Course
+    outline: Outline
+    """Of the vehicle: what is drawn to its scale is drawn in lengths of it."""
     track: Floats
     """Shape (n, 3): x, y [m] and speed [m/s]."""
     cells_m: Floats
@@ -33,6 +37,11 @@ class Scene(NamedTuple):
     """Gates."""
     missed: frozenset[int]
 
+    @property
+    def length_m(self) -> float:
+        """Of the vehicle."""
+        return self.outline.front_m - self.outline.rear_m
+
     def gate_color(self, gate: int) -> str:
         """Of a gate that was passed, missed, or lies ahead."""
         return PASSED if gate in self.passed else MISSED if gate in self.missed else AHEAD
@@ -40,7 +49,7 @@ class Scene(NamedTuple):
 
 def draw_scene(axes: Axes, scene: Scene, detail: bool) -> LineCollection:
     """Draw all layers; a detail with stronger lines. Returns the trajectory, for a colour bar."""
-    _draw_corridor(axes, scene.course)
+    _draw_corridor(axes, scene.course, EDGE_LENGTHS * scene.length_m)
     _draw_obstacles(axes, scene.course.world.obstacles)
     size = 1.6 if detail else 0.7
     axes.plot(*scene.cells_m.T, "s", color=SEEN, markersize=size, markeredgewidth=0, zorder=4)
@@ -48,13 +57,14 @@ def draw_scene(axes: Axes, scene: Scene, detail: bool) -> LineCollection:
         ends = np.stack([gate.left_m, gate.right_m])
         color = scene.gate_color(k)
         axes.plot(*ends.T, "-", color=color, linewidth=2.2, solid_capstyle="round", zorder=5)
-    return _draw_track(axes, scene.track, 3.0 if detail else 1.7)
+    top_mph = float(scene.course.speed_mps.max()) / MPH_MPS
+    return _draw_track(axes, scene.track, 3.0 if detail else 1.7, top_mph)
 
 
-def _draw_corridor(axes: Axes, course: Course) -> None:
+def _draw_corridor(axes: Axes, course: Course, edge_m: float) -> None:
     """Rectangles and discs in one colour, over the same a little larger for the edge."""
     P, width = course.waypoint_m, course.half_width_m
-    for color, extra, z in ((EDGE, 0.3, 0.0), (SAND, 0.0, 1.0)):
+    for color, extra, z in ((EDGE, edge_m, 0.0), (SAND, 0.0, 1.0)):
         shapes = [_capsule(P[k], P[k + 1], width[k] + extra) for k in range(len(P) - 1)]
         axes.add_collection(_polygons(shapes, color, z))
 
@@ -89,12 +99,12 @@ def _polygons(shapes: list[Floats], color: str, z: float) -> PolyCollection:
     return PolyCollection(shapes, facecolors=color, linewidths=0.0, zorder=z)
 
 
-def _draw_track(axes: Axes, track: Floats, width: float) -> LineCollection:
+def _draw_track(axes: Axes, track: Floats, width: float, top_mph: float) -> LineCollection:
     pieces = np.stack([track[:-1, :2], track[1:, :2]], axis=1)
     lines = LineCollection(list(pieces), cmap=SPEED_MAP, linewidths=width, zorder=6)
     speed_mph = np.abs(track[1:, 2]) / MPH_MPS
     lines.set_array(speed_mph)
-    lines.set_clim(0.0, max(TOP_MPH, float(speed_mph.max(initial=0.0))))
+    lines.set_clim(0.0, max(top_mph, float(speed_mph.max(initial=0.0))))
     lines.set_capstyle("round")
     axes.add_collection(lines)
     return lines

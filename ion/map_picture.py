@@ -14,7 +14,7 @@ from ion.trace import Trace
 from nav.route.rddf import FOOT_M
 from scenarios.course import Course
 from scenarios.verdicts import Judge
-from scenarios.verdicts.shapes import Outline, Pose
+from scenarios.verdicts.shapes import Pose
 from scenarios.verdicts.tracking import frames
 
 Floats = NDArray[np.float64]
@@ -22,9 +22,12 @@ Box = tuple[float, float, float, float]
 """Left, right, bottom, top, [m]."""
 
 WIDTH_IN, DETAIL_IN, DPI = 12.0, 2.9, 150
-MARGIN_M = 14.0
-DETAIL_M = (21.0, 11.0)
+MARGIN_LENGTHS = 4.6
+"""Around course and trajectory, in lengths of the vehicle."""
+DETAIL_LENGTHS = (6.9, 3.6)
 """Half width and half height of a detail."""
+NUMBER_LENGTHS = 2.3
+"""From a gate to its number."""
 FAMILIES = {"other": "nearest obstacle", "gate": "tightest gate", "tunnel": "tunnel wall"}
 
 
@@ -43,7 +46,8 @@ def draw_map(course: Course, trace: Trace, judge: Judge, title: str, path: Path)
     """
     missed = frozenset(judge.gates.missed(all_behind=judge.progress.finished))
     cells_m = frames(course).to_world(trace.cells_m())
-    scene = Scene(course, trace.track(), cells_m, frozenset(judge.gates.passed), missed)
+    passed = frozenset(judge.gates.passed)
+    scene = Scene(course, judge.outline, trace.track(), cells_m, passed, missed)
     whole, details = _whole(scene), _details(judge)
     map_in = _height_in(whole)
     figure = Figure((WIDTH_IN, map_in + DETAIL_IN), layout="constrained", facecolor=PAPER)
@@ -57,7 +61,7 @@ def draw_map(course: Course, trace: Trace, judge: Judge, title: str, path: Path)
 
 def _whole(scene: Scene) -> Box:
     points = np.vstack([scene.course.waypoint_m, scene.track[:, :2]])
-    margin = min(float(scene.course.half_width_m.max()), 30.0) + MARGIN_M
+    margin = min(float(scene.course.half_width_m.max()), 30.0) + MARGIN_LENGTHS * scene.length_m
     low, high = points.min(axis=0) - margin, points.max(axis=0) + margin
     return float(low[0]), float(high[0]), float(low[1]), float(high[1])
 
@@ -98,9 +102,10 @@ def _draw_detail(axes: Axes, scene: Scene, name: str, pose: Pose | None) -> None
         return
     axes.axis("on")
     draw_scene(axes, scene, detail=True)
-    corners = np.array(Outline().corners_m(pose))
+    corners = np.array(scene.outline.corners_m(pose))
     axes.fill(*corners.T, facecolor="none", edgecolor=INK, linewidth=1.4, zorder=9)
-    (x, y, _), (across, up) = pose, DETAIL_M
+    x, y, _ = pose
+    across, up = (scene.length_m * lengths for lengths in DETAIL_LENGTHS)
     box = (x - across, x + across, y - up, y + up)
     _frame(axes, box)
     axes.spines[:].set(visible=True, color="#d9d6cf")
@@ -111,7 +116,8 @@ def _draw_detail(axes: Axes, scene: Scene, name: str, pose: Pose | None) -> None
 def _number_gates(axes: Axes, scene: Scene) -> None:
     for k, gate in enumerate(scene.course.gates):
         across = gate.left_m - gate.right_m
-        x, y = (gate.left_m + 7.0 * across / np.hypot(*across)).tolist()
+        away = NUMBER_LENGTHS * scene.length_m / np.hypot(*across)
+        x, y = (gate.left_m + away * across).tolist()
         axes.text(
             x,
             y,
@@ -161,5 +167,5 @@ def _scale_bar(axes: Axes, box: Box) -> None:
     x, y, tick = left + 0.015 * width, bottom + 0.012 * width, 0.004 * width
     bar = np.array([[x, y + tick], [x, y], [x + length, y], [x + length, y + tick]])
     axes.plot(*bar.T, "-", color=INK, linewidth=1.4, zorder=10)
-    text = f"{length:g} m = {length / FOOT_M:.0f} ft, north is up"
+    text = f"{length:g} m = {length / FOOT_M:.3g} ft, north is up"
     axes.text(x + length + 2 * tick, y, text, color=INK, fontsize=8, va="bottom", zorder=10)

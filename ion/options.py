@@ -33,7 +33,7 @@ class Options:
     json: bool = False
     """One JSON object a line on standard output instead of a table."""
     ablate: Annotated[tuple[str, ...], arg(metavar="NAME...")] = ()
-    """Drive without a sensor: blind, no-sonar, no-gps, no-imu, no-lidar-roof, ..."""
+    """Drive without a sensor: blind, no-sonar, no-gps, no-imu, no-lidar-roof, ...; see docs."""
     log: Annotated[Log | None, arg(metavar="full|inputs|light|off")] = None
     """What goes on the tape: all; no /view/; no LIDAR scans; no tape. Default: full, and of many
     seeds the tapes of failures only."""
@@ -53,7 +53,7 @@ def job_of(options: Options) -> Job:
         NavError: the route file is wrong.
     """
     source = _source(options)
-    _check_ablations(options.ablate)
+    _check_ablations(options.ablate, source)
     if options.jobs < 1:
         raise UsageError(f"--jobs {options.jobs}: expected 1 or more")
     _check_folder(options.out)
@@ -92,13 +92,15 @@ def _source(options: Options) -> Source:
     return scenario_source(options.scenario)
 
 
-def _check_ablations(names: tuple[str, ...]) -> None:
-    """Loads the twin's sensors only where something is to be taken away."""
+def _check_ablations(names: tuple[str, ...], source: Source) -> None:
+    """Draws a course, to know its vehicle, only where something is to be taken away."""
     if names:
         from scenarios.ablation import disabled_sensors
+        from scenarios.vehicles import VEHICLES
 
+        lidars = VEHICLES[source.course(0).vehicle].lidars
         try:
-            disabled_sensors(names)
+            disabled_sensors(names, lidars)
         except ValueError as error:
             raise UsageError(str(error)) from error
 

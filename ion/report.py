@@ -15,6 +15,8 @@ if TYPE_CHECKING:
     from scenarios.episode import Episode
 
 MILE_M = 5280 * FOOT_M
+SHORT_M = 160.0
+"""A tenth of a mile."""
 EVERY = 25
 """Ticks between two looks at the bar: 0.5 s simulated, about 0.01 s of wall time."""
 
@@ -109,7 +111,7 @@ def _rows(r: Result) -> list[tuple[str, str]]:
         ("outcome", r["outcome"]),
         ("simulated time", _clock(r["sim_time_s"])),
         ("wall time", wall),
-        ("distance", f"{r['distance_m'] / MILE_M:.2f} miles"),
+        ("distance", way(r["distance_m"])),
         ("gates", f"{r['gates_passed']} of {r['gates_total']}"),
         ("contacts", " ".join([str(r["contacts"]), *r["contact_objects"]])),
         ("departures", str(r["departures"])),
@@ -124,6 +126,11 @@ def _rows(r: Result) -> list[tuple[str, str]]:
         ("tape", r["log"] or "not kept"),
         ("map", r["map"] or "not kept"),
     ]
+
+
+def way(distance_m: float) -> str:
+    """In miles, or metres where it is short."""
+    return f"{distance_m:.0f} m" if distance_m < SHORT_M else f"{distance_m / MILE_M:.2f} miles"
 
 
 def _clock(seconds: float) -> str:

@@ -16,8 +16,6 @@ Floats = NDArray[np.float64]
 
 EVERY = 10
 """Ticks between two places: 0.2 s."""
-CELL_M = 0.25
-"""Cells that were seen are drawn on a lattice of this spacing."""
 
 
 class Trace:
@@ -27,6 +25,7 @@ class Trace:
         self._tick = 0
         self._places: list[tuple[float, float, float]] = []
         self._cells: list[NDArray[np.int64]] = []
+        self._cell_m = 1.0
 
     def __call__(self, episode: "Episode", records: Sequence[Record]) -> None:
         """Take the truth every 0.2 s, and all cells that were reported."""
@@ -34,9 +33,10 @@ class Trace:
             x, y = episode.truth.position_m[:2].tolist()
             self._places.append((x, y, episode.truth.speed_mps))
         self._tick += 1
+        self._cell_m = episode.navigator.parameters.obstacle_map.cell_m
         for record in records:
             if isinstance(record.message, ObstacleCells):
-                cells = np.round(record.message.position_m / CELL_M).astype(np.int64)
+                cells = np.floor(record.message.position_m / self._cell_m).astype(np.int64)
                 self._cells.append(cells.reshape(-1, 2))
 
     def track(self) -> Floats:
@@ -48,4 +48,4 @@ class Trace:
         if not self._cells:
             return np.zeros((0, 2))
         cells = np.unique(np.concatenate(self._cells), axis=0)
-        return cells.astype(np.float64) * CELL_M
+        return (cells.astype(np.float64) + 0.5) * self._cell_m
