@@ -1,6 +1,6 @@
 """What `--ablate` can take away, to see whether a course is worth passing."""
 
-LIDARS = ("lidar_bumper", "lidar_roof", "lidar_left", "lidar_right")
+LIDARS = ("lidar_bumper", "lidar_roof", "lidar_left", "lidar_right", "lidar_field")
 SENSORS = (*LIDARS, "sonar", "gps", "imu", "compass", "odometry")
 
 ABLATIONS: dict[str, frozenset[str]] = {
@@ -8,7 +8,7 @@ ABLATIONS: dict[str, frozenset[str]] = {
     "no-lidar": frozenset(LIDARS),
     **{f"no-{name.replace('_', '-')}": frozenset({name}) for name in SENSORS},
 }
-"""Ablation to the sensors that fall silent."""
+"""Ablation to the sensors that fall silent, of those that a vehicle has."""
 
 
 def disabled_sensors(ablate: tuple[str, ...]) -> frozenset[str]:

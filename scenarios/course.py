@@ -1,6 +1,7 @@
 """A course: all that an episode, a judge and a picture need to know about one drawn world."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -56,6 +57,8 @@ class Course:
     crosses the line there."""
     stuck_s: float = 60.0
     """Without a metre of way for this long, the drive is over."""
+    told: dict[str, Any] = field(default_factory=dict)
+    """What the figures of a drive also say, of the course itself; ready for JSON."""
 
 
 def route_points_m(route: Route, anchor: tuple[float, float]) -> Floats:

@@ -43,7 +43,7 @@ class Episode:
         texts = parameter_texts(course.vehicle)
         chosen = nav_parameters or parameters_from(texts, course.vehicle)
         self.navigator = IonNavigator(chosen, route)
-        self.simulator = vehicle.twin(course.world, seed, disabled_sensors(ablate))
+        self.simulator = vehicle.twin(course.world, seed, disabled_sensors(ablate) & vehicle.sensors)
         self.judge = Judge(course, outline=vehicle.outline)
         self.digest = Digest()
         self.truth: Truth = self.simulator.truth()
@@ -92,6 +92,7 @@ class Episode:
         return {
             "scenario": self.course.name,
             "seed": self.seed,
+            **self.course.told,
             "outcome": self.outcome,
             "sim_time_s": round(self.time_s, 3),
             **self.judge.figures(),

@@ -6,7 +6,9 @@ from typing import Protocol
 
 from nav.messages import ActuatorTargets, SensorMessage
 from nav.parameters import ION
+from scenarios.ablation import SENSORS
 from scenarios.verdicts.shapes import Outline
+from twin.dubins import DubinsSimulator, dubins_parameters
 from twin.simulator import Simulator
 from twin.truth import Truth
 from twin.world import World
@@ -37,7 +39,17 @@ class Vehicle:
     """Builds it from the world, the seed, and the sensors that are silent."""
     outline: Outline
     """What the judge measures clearance from."""
+    sensors: frozenset[str]
+    """Those that an ablation can silence."""
 
 
-VEHICLES = {ION: Vehicle(Simulator, Outline())}
+DUBINS = "dubins"
+"""The point of section 6.5; its obstacles come raw, so the judge expands it to a disc."""
+_DISC = Outline(0.0, 0.0, 0.0, dubins_parameters().drive.disc_radius_m)
+_POINT_SENSORS = frozenset({"lidar_field", "gps", "compass", "odometry"})
+
+VEHICLES = {
+    ION: Vehicle(Simulator, Outline(), frozenset(SENSORS) - {"lidar_field"}),
+    DUBINS: Vehicle(DubinsSimulator, _DISC, _POINT_SENSORS),
+}
 """By the name that a course gives, which is also that of the navigator's parameter file."""

@@ -26,6 +26,8 @@ class Outline(NamedTuple):
     front_m: float = 2.10
     rear_m: float = -0.95
     half_width_m: float = 0.762
+    radius_m: float = 0.0
+    """All points this near to the rectangle belong to it too: a disc is a point with a radius."""
 
     @property
     def middle_m(self) -> float:
@@ -35,10 +37,11 @@ class Outline(NamedTuple):
     def nose_m(self, pose: Pose) -> tuple[float, float]:
         """The middle of the bumper in the world."""
         x, y, heading = pose
-        return x + self.front_m * math.cos(heading), y + self.front_m * math.sin(heading)
+        front = self.front_m + self.radius_m
+        return x + front * math.cos(heading), y + front * math.sin(heading)
 
     def corners_m(self, pose: Pose) -> list[tuple[float, float]]:
-        """The four corners in the world, in order around the outline."""
+        """The four corners of the rectangle in the world, in order around it."""
         x, y, heading = pose
         c, s, w = math.cos(heading), math.sin(heading), self.half_width_m
         local = ((self.front_m, -w), (self.front_m, w), (self.rear_m, w), (self.rear_m, -w))
@@ -82,23 +85,25 @@ def distances_m(outline: Outline, pose: Pose, shapes: Footprints) -> Floats:
     c, s = math.cos(heading), math.sin(heading)
     middle, half_length_m = outline.middle_m, 0.5 * (outline.front_m - outline.rear_m)
     center = (x + c * middle, y + s * middle)
-    return _distances((half_length_m, outline.half_width_m), center, (c, s), *shapes)
+    size = (half_length_m, outline.half_width_m, outline.radius_m)
+    return _distances(size, center, (c, s), *shapes)
 
 
 @njit(cache=True)
 def _distances(
-    half: tuple[float, float], center: tuple[float, float], turn: tuple[float, float],
+    size: tuple[float, float, float], center: tuple[float, float], turn: tuple[float, float],
     corner_m: Floats, radius_m: Floats,
 ) -> Floats:  # fmt: skip
-    """From a rectangle at `center`, whose x axis is along `turn`, to each shape."""
+    """From a rectangle at `center`, whose x axis is along `turn`, to each shape; `size` has its
+    half length, its half width, and the radius around it."""
     (c, s), local = turn, np.empty((CORNERS, 2))
     distance = np.empty(len(radius_m))
     for i in range(len(radius_m)):
         for k in range(CORNERS):
             dx, dy = corner_m[i, k, 0] - center[0], corner_m[i, k, 1] - center[1]
             local[k, 0], local[k, 1] = c * dx + s * dy, c * dy - s * dx
-        gap = _rectangle_to_polygon(half[0], half[1], local)
-        distance[i] = max(gap - radius_m[i], 0.0)
+        gap = _rectangle_to_polygon(size[0], size[1], local)
+        distance[i] = max(gap - size[2] - radius_m[i], 0.0)
     return distance
 
 
