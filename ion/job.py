@@ -15,6 +15,7 @@ if TYPE_CHECKING:
     from ion.trace import Trace
     from scenarios.course import Course
     from scenarios.episode import Episode
+    from tape.held_back import HeldBack
     from tape.writer import TapeWriter
 
 METERS_A_MILE = 1609.344
@@ -43,10 +44,13 @@ class Job:
 
         course, trace, tape = self.source.course(seed), Trace(), self.path(seed, ".mcap")
         episode = Episode(course, seed, self.ablate)
-        with self._writer(course, seed, tape) as writer:
+        with self._tape(course, seed, tape) as writer:
             figures = run(episode, writer, [*watches, trace])
-        figures |= {"scenario": self.source.name, "ablate": list(self.ablate)}
-        if self.failures_only and figures["outcome"] == "finished":
+            wanted = not self.failures_only or figures["outcome"] != "finished"
+            if wanted:
+                writer.keep()
+        figures |= {"scenario": self.source.title, "ablate": list(self.ablate)}
+        if not wanted:
             tape.unlink(missing_ok=True)
             return figures | {"log": None, "map": None}
         log = None if self.log == "off" else str(tape)
@@ -61,12 +65,19 @@ class Job:
         name = "_".join((self.source.name, *self.ablate, f"seed{seed}"))
         return self.out / f"{name}{suffix}"
 
+    def _tape(self, course: "Course", seed: int, path: Path) -> "HeldBack":
+        """The tape of a drive; one that may not be wanted waits in memory."""
+        from tape.held_back import MOST, HeldBack
+
+        most = MOST if self.failures_only else 0
+        return HeldBack(lambda: self._writer(course, seed, path), most)
+
     def _writer(self, course: "Course", seed: int, path: Path) -> "TapeWriter":
         from scenarios.parameter_files import parameter_texts
         from tape.writer import TapeWriter
 
-        said = {"scenario": self.source.name, "seed": str(seed), "ablate": " ".join(self.ablate)}
-        said["vehicle"] = course.vehicle
+        said = {"scenario": self.source.title, "seed": str(seed), "ablate": " ".join(self.ablate)}
+        said |= {"vehicle": course.vehicle, **self.source.said}
         attached = {course.route_name: course.route_text, **parameter_texts(course.vehicle)}
         if self.source.scenario:
             folder = files("scenarios") / self.source.scenario
@@ -89,13 +100,14 @@ def _stop_when_asked(episode: "Episode", records: object) -> None:
 
 
 def _view(vehicle: str) -> Any:
-    """Draws `/view/`, knowing where a vehicle's scanners sit."""
-    from nav.parameters import parameters_from
-    from scenarios.parameter_files import parameter_texts
+    """Draws `/view/`, knowing a vehicle's box and where its scanners sit."""
+    from scenarios.parameter_files import parameters_of
+    from scenarios.verdicts.clearance import HEIGHT_M
     from tape.view import View
 
-    texts = parameter_texts(vehicle)
-    return View(parameters_from(texts, vehicle).vehicle.lidar_mounts)
+    known = parameters_of(vehicle).vehicle
+    box = known.outline
+    return View(known.lidar_mounts, (box.front_m, box.rear_m, box.half_width_m, HEIGHT_M))
 
 
 def _title(course: str, seed: int, figures: dict[str, Any]) -> str:

@@ -51,7 +51,7 @@ def draw_map(course: Course, trace: Trace, judge: Judge, title: str, path: Path)
     grid = figure.add_gridspec(2, len(details), height_ratios=[map_in, DETAIL_IN])
     _draw_whole(figure.add_subplot(grid[0, :]), scene, whole, title)
     for k, (name, pose) in enumerate(details):
-        _draw_detail(figure.add_subplot(grid[1, k]), scene, name, pose)
+        _draw_detail(figure.add_subplot(grid[1, k]), scene, name, pose, judge.outline)
     figure.savefig(path, dpi=DPI)
 
 
@@ -92,14 +92,15 @@ def _draw_whole(axes: Axes, scene: Scene, box: Box, title: str) -> None:
     _scale_bar(axes, box)
 
 
-def _draw_detail(axes: Axes, scene: Scene, name: str, pose: Pose | None) -> None:
+def _draw_detail(
+    axes: Axes, scene: Scene, name: str, pose: Pose | None, outline: Outline
+) -> None:
     axes.axis("off")
     if pose is None:
         return
     axes.axis("on")
     draw_scene(axes, scene, detail=True)
-    corners = np.array(Outline().corners_m(pose))
-    axes.fill(*corners.T, facecolor="none", edgecolor=INK, linewidth=1.4, zorder=9)
+    axes.fill(*np.array(outline.border_m(pose)).T, facecolor="none", edgecolor=INK, linewidth=1.4, zorder=9)
     (x, y, _), (across, up) = pose, DETAIL_M
     box = (x - across, x + across, y - up, y + up)
     _frame(axes, box)

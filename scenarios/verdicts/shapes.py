@@ -47,6 +47,16 @@ class Outline(NamedTuple):
         local = ((self.front_m, -w), (self.front_m, w), (self.rear_m, w), (self.rear_m, -w))
         return [(x + c * u - s * v, y + s * u + c * v) for u, v in local]
 
+    def border_m(self, pose: Pose) -> list[tuple[float, float]]:
+        """The whole outline in the world, for pictures: its corners, rounded by the radius."""
+        if self.radius_m == 0.0:
+            return self.corners_m(pose)
+        return [
+            (x + self.radius_m * math.cos(angle), y + self.radius_m * math.sin(angle))
+            for k, (x, y) in enumerate(self.corners_m(pose))
+            for angle in (pose[2] + math.pi * (k - 1 + part / 8) / 2 for part in range(9))
+        ]
+
 
 class Footprints(NamedTuple):
     """Convex shapes on the ground, world frame: a hull, and a radius around it."""
