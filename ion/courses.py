@@ -49,7 +49,8 @@ class Source:
             NavError: the route cannot be driven.
         """
         if self.scenario:
-            return import_module(f"scenarios.{self.scenario}.course").build(seed, **dict(self.options))
+            course = import_module(f"scenarios.{self.scenario}.course")
+            return course.build(seed, **dict(self.options))
         from scenarios.route import build
 
         return build(self.route_text, self.route_name, self.first, self.last, seed)

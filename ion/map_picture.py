@@ -92,15 +92,14 @@ def _draw_whole(axes: Axes, scene: Scene, box: Box, title: str) -> None:
     _scale_bar(axes, box)
 
 
-def _draw_detail(
-    axes: Axes, scene: Scene, name: str, pose: Pose | None, outline: Outline
-) -> None:
+def _draw_detail(axes: Axes, scene: Scene, name: str, pose: Pose | None, outline: Outline) -> None:
     axes.axis("off")
     if pose is None:
         return
     axes.axis("on")
     draw_scene(axes, scene, detail=True)
-    axes.fill(*np.array(outline.border_m(pose)).T, facecolor="none", edgecolor=INK, linewidth=1.4, zorder=9)
+    border = np.array(outline.border_m(pose))
+    axes.fill(*border.T, facecolor="none", edgecolor=INK, linewidth=1.4, zorder=9)
     (x, y, _), (across, up) = pose, DETAIL_M
     box = (x - across, x + across, y - up, y + up)
     _frame(axes, box)

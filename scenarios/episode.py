@@ -41,8 +41,11 @@ class Episode:
         route = rddf.parse(course.route_text, course.route_name)
         vehicle = VEHICLES[course.vehicle]
         self.navigator = IonNavigator(nav_parameters or parameters_of(course.vehicle), route)
-        self.simulator = vehicle.twin(course.world, seed, disabled_sensors(ablate) & vehicle.sensors)
-        self.judge = Judge(course, outline=vehicle.outline, path=self.navigator.high_level.route)
+        self.simulator = vehicle.twin(
+            course.world, seed, disabled_sensors(ablate) & vehicle.sensors
+        )
+        path = self.navigator.high_level.route
+        self.judge = Judge(course, outline=vehicle.outline, path=path)
         self.digest = Digest()
         self.truth: Truth = self.simulator.truth()
         self.targets = ActuatorTargets(0, 0.0, 0.0, 1.0, Gear.HIGH)

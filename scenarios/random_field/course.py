@@ -53,7 +53,7 @@ def build(seed: int, field: str = "circles", density: int | None = None) -> Cour
     world = World(Plain(), _cylinders(drawn.circles), 1.0, ANCHOR_DEG, start)
     return Course(
         name="random_field",
-        title=f"{scenario.title} {field.capitalize()}, {count} lie about.",
+        title=f"{scenario.title} {_kind(field, count)}.",
         seed=seed,
         world=world,
         route_text=text,
@@ -66,6 +66,11 @@ def build(seed: int, field: str = "circles", density: int | None = None) -> Cour
         goal_m=GOAL_M,
         told=_told(field, count, drawn, start),
     )
+
+
+def _kind(field: str, count: int) -> str:
+    """For a title: `80 circles`, `traps and 40 circles`."""
+    return f"{count} circles" if field == "circles" else f"{field} and {count} circles".capitalize()
 
 
 def _told(kind: str, count: int, field: Field, start: tuple[float, float, float]) -> dict[str, Any]:

@@ -68,7 +68,7 @@ def feasible(circles: Floats, task: Task, disc_m: float, radius_m: float) -> boo
 @njit(cache=True)
 def _buckets(circles: Floats, half_side_m: float, size_m: float) -> tuple[Ints, Ints]:
     """Which circles reach into each square bucket: `member[first[b] : first[b + 1]]`."""
-    count = int(ceil(2.0 * half_side_m / size_m))
+    count = ceil(2.0 * half_side_m / size_m)
     first = np.zeros(count * count + 1, np.int64)
     member = np.zeros(0, np.int64)
     for fill in (False, True):
@@ -93,8 +93,8 @@ def _buckets(circles: Floats, half_side_m: float, size_m: float) -> tuple[Ints, 
 def _span(
     middle: float, radius: float, half_side_m: float, size_m: float, count: int
 ) -> tuple[int, int]:
-    low = int(floor((middle - radius + half_side_m) / size_m))
-    high = int(floor((middle + radius + half_side_m) / size_m))
+    low = floor((middle - radius + half_side_m) / size_m)
+    high = floor((middle + radius + half_side_m) / size_m)
     return max(low, 0), min(high + 1, count)
 
 
@@ -105,7 +105,7 @@ def _free(
     """Whether a place is in the square and in no circle."""
     if abs(x) >= half_side_m or abs(y) >= half_side_m:
         return False
-    count = int(ceil(2.0 * half_side_m / BUCKET_M))
+    count = ceil(2.0 * half_side_m / BUCKET_M)
     row, column = int((y + half_side_m) / BUCKET_M), int((x + half_side_m) / BUCKET_M)
     bucket = row * count + column
     for k in range(first[bucket], first[bucket + 1]):
@@ -132,9 +132,9 @@ def _moved(
 def _cell(pose: tuple[float, float, float], half_side_m: float, grid: Grid) -> int:
     """The flat index of a pose's cell of (x, y, heading)."""
     x, y, heading = pose
-    count = int(ceil(2.0 * half_side_m / grid.cell_m))
+    count = ceil(2.0 * half_side_m / grid.cell_m)
     column, row = int((x + half_side_m) / grid.cell_m), int((y + half_side_m) / grid.cell_m)
-    turn = int(floor(heading / (2.0 * pi) * grid.headings + 0.5)) % grid.headings
+    turn = floor(heading / (2.0 * pi) * grid.headings + 0.5) % grid.headings
     return (row * count + column) * grid.headings + turn
 
 
@@ -144,11 +144,11 @@ def _search(
 ) -> bool:
     """Best first; True when the goal is near, False when nothing is left to try."""
     side = task.half_side_m
-    count = int(ceil(2.0 * side / grid.cell_m))
+    count = ceil(2.0 * side / grid.cell_m)
     seen = np.zeros(count * count * grid.headings, np.bool_)
     queue = [(0.0, 0.0, task.start)]
     seen[_cell(task.start, side, grid)] = True
-    steps = int(round(grid.motion_m / SAMPLE_M))
+    steps = round(grid.motion_m / SAMPLE_M)
     while len(queue) > 0:
         _, cost, pose = heappop(queue)
         for turn in (0.0, 1.0, -1.0):

@@ -23,7 +23,7 @@ CHECK_CLEAR_M = 2.0
 """... this far from the circles, as somebody with a map would put them."""
 CLEAR_START_M, CLEAR_GOAL_M = 8.0, 5.0
 """No circle reaches nearer to the start than to leave room for a turn, nor into the goal."""
-TRIES = 200
+TRIES, CHECK_TRIES = 200, 40
 
 
 class Field(NamedTuple):
@@ -57,8 +57,9 @@ def placed(lane_m: Floats, turn_rad: float) -> Floats:
 
 def ends_kept(turn_rad: float) -> list[Keep]:
     """The discs about start and goal."""
-    start, goal = ends(turn_rad)
-    return [Keep(*start.tolist(), CLEAR_START_M), Keep(*goal.tolist(), CLEAR_GOAL_M)]
+    radii = (CLEAR_START_M, CLEAR_GOAL_M)
+    places = zip(ends(turn_rad), radii, strict=True)
+    return [Keep(float(x), float(y), radius) for (x, y), radius in places]
 
 
 def scattered(rng: np.random.Generator, count: int, kept: list[Keep]) -> Floats:
@@ -88,11 +89,9 @@ def check_points(rng: np.random.Generator, circles: Floats, turn_rad: float) -> 
 def _check_point(
     rng: np.random.Generator, circles: Floats, turn_rad: float, along_m: float
 ) -> Floats:
-    """The first that is drawn off the circles; in a thicket, the last."""
-    for _ in range(TRIES):
-        across_m = float(rng.uniform(-CHECK_OFFSET_M, CHECK_OFFSET_M))
-        point = placed(np.array([[along_m, across_m]]), turn_rad)[0]
-        gap_m = np.hypot(*(circles[:, :2] - point).T) - circles[:, 2] - DISC_M
-        if gap_m.min(initial=np.inf) > CHECK_CLEAR_M:
-            break
-    return point
+    """The first that is drawn off the circles; in a thicket, the one with the most room."""
+    across_m = rng.uniform(-CHECK_OFFSET_M, CHECK_OFFSET_M, CHECK_TRIES)
+    points = placed(np.column_stack([np.full(CHECK_TRIES, along_m), across_m]), turn_rad)
+    away = np.hypot(*(circles[:, None, :2] - points).T)
+    gap_m = (away - circles[:, 2]).min(axis=1, initial=np.inf) - DISC_M
+    return points[int(np.argmax(np.minimum(gap_m, CHECK_CLEAR_M)))]

@@ -47,8 +47,8 @@ def fork(rng: np.random.Generator) -> tuple[Floats, Floats, Keep]:
         The circles, shape (n, 3); two check points that mislead, shape (2, 2): in the wrong
         opening and behind the dead end; and the free opening.
     """
-    side = float(rng.choice((-1.0, 1.0)))
-    wrong, right = (float(v) * s for v, s in zip(rng.uniform(*OPENINGS_AT_M, 2), (side, -side)))
+    side, at = float(rng.choice((-1.0, 1.0))), rng.uniform(*OPENINGS_AT_M, 2)
+    wrong, right = (float(v) * s for v, s in zip(at, (side, -side), strict=True))
     half, deep = 0.5 * OPENING_M, float(rng.uniform(*POCKET_M))
     low, high = sorted((wrong, right))
     walls = [

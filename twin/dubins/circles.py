@@ -54,8 +54,13 @@ def ranges_m(
         away = sqrt(dx * dx + dy * dy)
         if radius < away < max_range_m + radius:
             bearing = atan2(dy, dx) - pose[2] - first
-            _shadow(found, bearing - 2.0 * pi * np.floor((bearing + pi) / (2.0 * pi)),
-                    away, radius, step)
+            _shadow(
+                found,
+                bearing - 2.0 * pi * np.floor((bearing + pi) / (2.0 * pi)),
+                away,
+                radius,
+                step,
+            )
     return found
 
 

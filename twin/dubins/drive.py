@@ -12,7 +12,9 @@ from twin.dubins.kinematics import State, advance, limited
 from twin.dubins.parameters import DriveParameters
 from twin.truth import Applied
 
+PARKED = Applied(0.0, 0.0, 1.0, int(Gear.HIGH), False)
 DIRECTION = {Gear.REVERSE: -1.0, Gear.NEUTRAL: 0.0, Gear.LOW: 1.0, Gear.HIGH: 1.0}
+"""Of the drive; a linkage on its way is in neutral."""
 
 
 @dataclass
@@ -20,7 +22,7 @@ class IdealDrive:
     """Remembers the targets in force and the gear."""
 
     parameters: DriveParameters
-    applied: Applied = Applied(0.0, 0.0, 1.0, int(Gear.HIGH), False)
+    applied: Applied = PARKED
     _wanted: Gear = Gear.HIGH
     _shifted_ns: int = 0
     """When the linkage arrives."""

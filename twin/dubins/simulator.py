@@ -70,4 +70,3 @@ class DubinsSimulator:
         return Truth(
             self.time_ns, place, heading, 0.0, 0.0, speed, AT_ONE_POINT + place, self._contacts
         )
-
