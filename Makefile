@@ -36,5 +36,6 @@ check: .venv/.dev
 # to the navigator is measured by.
 bench: .venv/.base
 	$(BIN)/python tests/bench_raycast.py
+	$(BIN)/python tests/bench_physics.py
 	$(BIN)/python tests/bench_episode.py
 	$(BIN)/ion drive nqe --seeds 0-19 --jobs 2 --out runs/bench --json

@@ -4,14 +4,14 @@ from dataclasses import dataclass
 from math import atan2
 
 import numpy as np
-from numpy.typing import NDArray
 
+from nav.angles import wrapped
+from nav.fusion.lattice import Ints
 from nav.fusion.obstacle_map import ObstacleMap
 from nav.messages import Decision, DirectCommand, EgoEstimate, Floats, FollowPath
 from nav.parameters import Parameters
-from nav.planning.angles import wrapped
-from nav.planning.boundaries import Layer, boundaries
-from nav.planning.corridor_grid import corridor_distance
+from nav.planning.boundaries import Cells, boundaries
+from nav.planning.corridor_grid import corridor_distance, edge_levels
 from nav.planning.curve import Curve
 from nav.planning.local_path import clear_distances, join_length, route_ahead
 from nav.planning.scanning import Boundaries
@@ -49,7 +49,8 @@ class HighLevelController:
         self.V0: Floats = speed_profile(self.route, parameters.planning.speed)
         self.machine = Machine(parameters)
         self.here = Projection(0, 0.0, 0.0)
-        self._corridor: tuple[tuple[object, ...], NDArray[np.float32]] | None = None
+        self._corridor: tuple[tuple[object, ...], Cells] | None = None
+        self._obstacles: tuple[Ints, Cells] | None = None
 
     def decide(
         self, time_ns: int, senses: Senses, obstacles: ObstacleMap
@@ -97,30 +98,37 @@ class HighLevelController:
         return atan2(float(y), float(x))
 
     def _boundaries(self, obstacles: ObstacleMap) -> Boundaries:
-        foot = self.parameters.planning.footprint
-        depth = self._corridor_depth(obstacles)
-        layers = (
-            Layer(foot.safe_radius_m, depth < foot.corridor_safe_m),
-            Layer(foot.real_radius_m, depth < foot.corridor_real_m),
-            Layer(foot.touch_radius_m, depth < foot.corridor_touch_m),
-        )
-        occupied = obstacles.occupied().index
-        level = boundaries(occupied, obstacles.lattice.count, obstacles.cell_m, layers)
+        level = np.maximum(self._obstacle_level(obstacles), self._corridor_level(obstacles))
         return Boundaries(level, obstacles.origin_m, obstacles.cell_m)
 
-    def _corridor_depth(self, obstacles: ObstacleMap) -> NDArray[np.float32]:
-        """How far inside the corridor each cell lies; redrawn when map or segment have moved."""
+    def _obstacle_level(self, obstacles: ObstacleMap) -> Cells:
+        """The boundaries of obstacles; expanded anew when an obstacle has come or gone."""
+        occupied = obstacles.occupied_index()
+        if self._obstacles is None or not np.array_equal(self._obstacles[0], occupied):
+            foot, lattice = self.parameters.planning.footprint, obstacles.lattice
+            radius_m = (foot.safe_radius_m, foot.real_radius_m, foot.touch_radius_m)
+            expanded = boundaries(occupied, lattice.count, lattice.cell_m, radius_m)
+            self._obstacles = (occupied, expanded)
+        return self._obstacles[1]
+
+    def _corridor_level(self, obstacles: ObstacleMap) -> Cells:
+        """The boundaries of the corridor's edge; drawn anew when map or segment have moved."""
+        first, last = self._corridor_segments()
+        key = (obstacles.origin_m, first, last)
+        if self._corridor is None or self._corridor[0] != key:
+            foot, width_m = self.parameters.planning.footprint, self.waypoints.half_width_m
+            margin_m = (foot.corridor_safe_m, foot.corridor_real_m, foot.corridor_touch_m)
+            inside = corridor_distance(obstacles.lattice, self._corridor_m, width_m, first, last)
+            self._corridor = (key, edge_levels(inside, margin_m))
+        return self._corridor[1]
+
+    def _corridor_segments(self) -> tuple[int, int]:
+        """The first segment that is drawn, and the one after the last."""
         segment = int(self.route.segment[self.here.index])
         end = int(np.searchsorted(self.route.arc_m, self.here.arc_m + CORRIDOR_AHEAD_M))
         finish = end >= len(self.route.arc_m)
         last = int(self.route.segment[-1]) + 2 if finish else int(self.route.segment[end]) + 1
-        first = max(0, segment - CORRIDOR_BEHIND)
-        key = (obstacles.origin_m, first, last)
-        if self._corridor is None or self._corridor[0] != key:
-            width = self.waypoints.half_width_m
-            drawn = corridor_distance(obstacles.lattice, self._corridor_m, width, first, last)
-            self._corridor = (key, drawn)
-        return self._corridor[1]
+        return max(0, segment - CORRIDOR_BEHIND), last
 
     def _decision(self, s: Situation, plan: Plan) -> Decision:
         return Decision(

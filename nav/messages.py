@@ -11,6 +11,7 @@ read-only float64 at construction, so that nobody can change what was said.
 from collections.abc import Sequence
 from dataclasses import dataclass, field, fields
 from enum import IntEnum
+from functools import cache
 from typing import Any, NamedTuple, Protocol
 
 import numpy as np
@@ -61,13 +62,9 @@ class _Message:
             object.__setattr__(self, name, _frozen(getattr(self, name)))
 
 
-_ARRAY_FIELDS: dict[type, tuple[str, ...]] = {}
-
-
-def _array_fields(cls: type) -> tuple[str, ...]:
-    if cls not in _ARRAY_FIELDS:
-        _ARRAY_FIELDS[cls] = tuple(f.name for f in fields(cls) if f.type is Floats)
-    return _ARRAY_FIELDS[cls]
+@cache
+def _array_fields(cls: type[Any]) -> tuple[str, ...]:
+    return tuple(f.name for f in fields(cls) if f.type is Floats)
 
 
 # ---------------------------------------------------------------- sensors, into the navigator

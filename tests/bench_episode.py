@@ -8,7 +8,7 @@ share is about 3 ms.
 import sys
 import tempfile
 import time
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 from pathlib import Path
 from typing import Any
 
@@ -47,8 +47,8 @@ PARTS = {
 class Meter:
     """Charges time to one part at a time."""
 
-    def __init__(self) -> None:
-        self.spent_s = dict.fromkeys((*PARTS, "rest"), 0.0)
+    def __init__(self, parts: Iterable[str]) -> None:
+        self.spent_s = dict.fromkeys((*parts, "rest"), 0.0)
         self._part, self._since_s = "rest", time.perf_counter()
 
     def switch(self, part: str) -> str:
@@ -88,7 +88,7 @@ def drive(episode: Episode, seconds: float) -> float:
 def main() -> None:
     """Print the table."""
     seconds = float(sys.argv[1]) if len(sys.argv) > 1 else 40.0
-    meter = Meter()
+    meter = Meter(PARTS)
     for part, owned in PARTS.items():
         for owner, name in owned:
             setattr(owner, name, meter.metered(part, getattr(owner, name)))

@@ -81,3 +81,16 @@ def test_an_unknown_shape_is_refused():
     cone = Obstacle("cone_1", "cone", "cone", (5.0, 0.0, 0.0), (0.1, 0.1, 0.1))
     with pytest.raises(ValueError, match="cone_1: shape 'cone', expected one of box, cylinder"):
         assembled(cone)
+
+
+def test_what_stands_still_is_where_it_should_be_after_the_window_has_scrolled():
+    window = TerrainWindow(GROUND, 0.0, 0.0)
+    model = assemble(world(BALE, POST), window)
+    data = mujoco.MjData(model)
+    settle(model, data)
+    assert window.recenter(10.0, 5.0)
+    window.write_hfield(model, data)
+    mujoco.mj_step(model, data, 2)
+    assert data.geom("terrain").xpos == pytest.approx(window.contact_origin_m, abs=1e-12)
+    assert data.geom("post").xpos == pytest.approx(POST.center_m)
+    assert sum("_tire" in model.geom(c.geom[1]).name for c in data.contact) >= 6

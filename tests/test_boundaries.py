@@ -4,7 +4,8 @@ import numpy as np
 import pytest
 
 from nav.errors import NavError
-from nav.planning.boundaries import FREE, REAL, SAFE, TOUCH, Layer, boundaries
+from nav.planning.boundaries import FREE, REAL, SAFE, TOUCH, boundaries
+from nav.planning.corridor_grid import edge_levels
 
 COUNT, CELL_M = 60, 0.2
 
@@ -17,60 +18,50 @@ def slow(occupied: np.ndarray, radius_m: tuple[float, float]) -> np.ndarray:
     return np.where(distance <= radius_m[1] + 1e-9, REAL, level).reshape(COUNT, COUNT)
 
 
-def layers(*radius_m: float) -> list[Layer]:
-    """Boundaries of obstacles alone, from the outermost inwards."""
-    return [Layer(radius) for radius in radius_m]
-
-
 @pytest.mark.parametrize("radius_m", [(1.5, 0.95), (0.2, 0.0), (1.0, 1.0), (4.4, 0.6)])
 def test_it_equals_the_slow_expansion(radius_m: tuple[float, float]) -> None:
     occupied = np.random.default_rng(3).choice(COUNT * COUNT, 25, replace=False)
-    found = boundaries(occupied, COUNT, CELL_M, layers(*radius_m))
+    found = boundaries(occupied, COUNT, CELL_M, radius_m)
     assert np.array_equal(found, slow(occupied, radius_m))
 
 
 def test_edges_of_the_grid_do_not_leak() -> None:
     corners = np.array([0, COUNT - 1, COUNT * (COUNT - 1), COUNT * COUNT - 1])
-    found = boundaries(corners, COUNT, CELL_M, layers(1.5, 0.95))
+    found = boundaries(corners, COUNT, CELL_M, (1.5, 0.95))
     assert np.array_equal(found, slow(corners, (1.5, 0.95)))
 
 
 def test_three_boundaries_envelop_each_other() -> None:
-    found = boundaries(np.array([30 * COUNT + 30]), COUNT, CELL_M, layers(0.8, 0.4, 0.2))
+    found = boundaries(np.array([30 * COUNT + 30]), COUNT, CELL_M, (0.8, 0.4, 0.2))
     assert list(found[30, 25:31]) == [FREE, SAFE, SAFE, REAL, TOUCH, TOUCH]
 
 
 def test_no_obstacle_is_all_free() -> None:
-    found = boundaries(np.array([], np.int64), COUNT, CELL_M, layers(1.5, 0.95))
+    found = boundaries(np.array([], np.int64), COUNT, CELL_M, (1.5, 0.95))
     assert found.dtype == np.uint8
     assert np.all(found == FREE)
 
 
 def test_the_corridor_adds_to_its_boundary() -> None:
-    outside = np.zeros((2, COUNT, COUNT), bool)
-    outside[0, :, :8] = True
-    outside[1, :, :5] = True
-    both = [Layer(0.8, outside[0]), Layer(0.4, outside[1])]
-    found = boundaries(np.array([30 * COUNT + 40]), COUNT, CELL_M, both)
+    inside_m = np.full((COUNT, COUNT), 2.0, np.float32)
+    inside_m[:, :8], inside_m[:, :5] = 1.0, 0.0
+    obstacle = boundaries(np.array([30 * COUNT + 40]), COUNT, CELL_M, (0.8, 0.4))
+    found = np.maximum(obstacle, edge_levels(inside_m, (1.2, 0.9)))
     assert list(found[10, 3:10]) == [REAL, REAL, SAFE, SAFE, SAFE, FREE, FREE]
     assert list(found[30, 35:41]) == [FREE, SAFE, SAFE, REAL, REAL, REAL]
 
 
-def test_real_is_never_outside_safe() -> None:
-    everywhere = np.ones((COUNT, COUNT), bool)
-    both = [Layer(1.5), Layer(0.95, everywhere)]
-    assert np.all(boundaries(np.array([5]), COUNT, CELL_M, both) == REAL)
+def test_a_cell_on_the_edge_is_inside_all_boundaries() -> None:
+    assert np.all(edge_levels(np.zeros((3, 3), np.float32), (1.2, 0.9, 0.7)) == TOUCH)
 
 
 def test_its_arguments_are_left_alone() -> None:
-    outside = np.zeros((COUNT, COUNT), bool)
     occupied = np.array([100, 200])
-    boundaries(occupied, COUNT, CELL_M, [Layer(1.5, outside), Layer(0.95, outside)])
-    assert not outside.any()
+    boundaries(occupied, COUNT, CELL_M, (1.5, 0.95))
     assert list(occupied) == [100, 200]
 
 
 @pytest.mark.parametrize("radius_m", [-0.1, 13.0, float("nan")])
 def test_a_useless_radius_is_refused(radius_m: float) -> None:
     with pytest.raises(NavError, match="must be within 0 and 63"):
-        boundaries(np.array([5]), COUNT, CELL_M, layers(1.5, radius_m))
+        boundaries(np.array([5]), COUNT, CELL_M, (1.5, radius_m))

@@ -63,6 +63,13 @@ def test_solver_is_the_measured_one(model):
     assert (model.opt.iterations, model.opt.tolerance) == (20, 1e-6)
 
 
+def test_the_vehicle_never_sleeps(model, parked):
+    assert model.tree_sleep_policy.tolist() == [mujoco.mjtSleepPolicy.mjSLEEP_NEVER]
+    for _ in range(900):
+        mujoco.mj_step(model, parked)
+    assert parked.tree_awake.all()
+
+
 def test_mass_and_centre(model, parked):
     assert model.body("ranger").subtreemass[0] == pytest.approx(862 + 178)
     x, y, z = parked.body("ranger").subtree_com

@@ -57,9 +57,9 @@ def ground_range(origin: np.ndarray, direction: np.ndarray, ground: Ground) -> n
 
 def scan(name: str, pose: Pose, boxes: list[Box], ground: Ground = flat, time_s: float = 0.0):
     """What scanner `name` measures from the true pose, in whole centimetres."""
-    scanner = placed(GEOMETRY[name], pose)
-    direction = (scanner.turn @ GEOMETRY[name].direction).T
-    origin = scanner.origin_m + np.array([0.0, 0.0, ground(np.array(pose.x_m))])
+    frame = placed(GEOMETRY[name], pose)
+    direction = (frame[:, :2] @ GEOMETRY[name].ray).T
+    origin = frame[:, 2] + np.array([0.0, 0.0, ground(np.array(pose.x_m))])
     range_m = ground_range(origin, direction, ground)
     for box in boxes:
         foot = float(ground(np.array(box[0])))

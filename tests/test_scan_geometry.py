@@ -5,7 +5,16 @@ from math import atan2, cos, pi, radians, sin, tan
 import numpy as np
 import pytest
 
-from nav.fusion.scan_geometry import Pose, level_points, placed, rotation, scan_geometry
+from nav.fusion.scan_geometry import (
+    Pose,
+    ScanGeometry,
+    Scans,
+    level_points,
+    placed,
+    returns,
+    rotation,
+    scan_geometry,
+)
 from nav.parameters.vehicle import Lidar, LidarMount, Outline
 
 LIDAR = Lidar(-pi / 2, pi / 360, 361, 81.92)
@@ -22,9 +31,14 @@ def one_return(index: int, range_m: float) -> np.ndarray:
 
 def point(mount: LidarMount, pose: Pose, index: int, range_m: float) -> np.ndarray:
     geometry = scan_geometry(mount, LIDAR, OUTLINE)
-    found = level_points(geometry, placed(geometry, pose), one_return(index, range_m), 40.0)
+    found = found_by(geometry, pose, one_return(index, range_m), 40.0)
     assert found.shape == (3, 1)
     return found[:, 0]
+
+
+def found_by(geometry: ScanGeometry, pose: Pose, range_m: np.ndarray, max_range_m: float):
+    scans = Scans([geometry], placed(geometry, pose)[None], range_m[None])
+    return level_points(scans, returns(scans, max_range_m))
 
 
 def test_rotation_signs_follow_the_contract() -> None:
@@ -42,8 +56,9 @@ def test_rotation_is_orthonormal() -> None:
 
 def test_beams_are_unit_vectors_from_right_to_left() -> None:
     geometry = scan_geometry(LidarMount((2.05, 0, 0.55), 0.0, 0.0), LIDAR, OUTLINE)
-    assert np.allclose(np.linalg.norm(geometry.direction, axis=0), 1.0)
-    assert np.allclose(geometry.direction[:, [0, AHEAD, 360]].T, [[0, -1, 0], [1, 0, 0], [0, 1, 0]])
+    direction = geometry.mount[:, :2] @ geometry.ray
+    assert np.allclose(np.linalg.norm(direction, axis=0), 1.0)
+    assert np.allclose(direction[:, [0, AHEAD, 360]].T, [[0, -1, 0], [1, 0, 0], [0, 1, 0]])
 
 
 def test_a_tilted_scanner_meets_flat_ground_where_it_should() -> None:
@@ -72,20 +87,18 @@ def test_mount_yaw_turns_the_fan() -> None:
 @pytest.mark.parametrize("range_m", [81.92, 41.0])
 def test_beams_without_return_and_far_ones_are_left_out(range_m: float) -> None:
     geometry = scan_geometry(LidarMount((2.05, 0, 0.55), 0.0, 0.0), LIDAR, OUTLINE)
-    scanner = placed(geometry, LEVEL)
-    found = level_points(geometry, scanner, one_return(AHEAD, range_m), 40.0)
+    found = found_by(geometry, LEVEL, one_return(AHEAD, range_m), 40.0)
     assert found.shape == (3, 0)
 
 
 def test_no_return_is_left_out_however_far_one_looks() -> None:
     geometry = scan_geometry(LidarMount((2.05, 0, 0.55), 0.0, 0.0), LIDAR, OUTLINE)
-    found = level_points(geometry, placed(geometry, LEVEL), np.full(361, 81.92), 100.0)
+    found = found_by(geometry, LEVEL, np.full(361, 81.92), 100.0)
     assert found.shape == (3, 0)
 
 
 def test_returns_from_the_own_outline_are_left_out() -> None:
     geometry = scan_geometry(LidarMount((2.05, 0, 0.55), 0.0, 0.0), LIDAR, OUTLINE)
     assert geometry.exit_m[[0, AHEAD]] == pytest.approx([0.762, 0.05])
-    scanner = placed(geometry, LEVEL)
-    assert level_points(geometry, scanner, one_return(0, 0.75), 40.0).shape == (3, 0)
-    assert level_points(geometry, scanner, one_return(0, 0.78), 40.0).shape == (3, 1)
+    assert found_by(geometry, LEVEL, one_return(0, 0.75), 40.0).shape == (3, 0)
+    assert found_by(geometry, LEVEL, one_return(0, 0.78), 40.0).shape == (3, 1)

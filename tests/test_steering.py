@@ -1,7 +1,6 @@
 """The steering fuzzy controller: rules by hand, scenes of Fig. 6.6, and mirrored worlds."""
 
 import pickle
-from functools import partial
 from math import cos, inf, pi, sin
 from pathlib import Path
 
@@ -14,14 +13,18 @@ from nav.fuzzy.inference import activations, strengths
 from nav.parameters.fuzzy import SteeringParameters
 from nav.parameters.loader import ParameterError, from_toml
 from nav.planning.focus import angle_between, deduction, situation
-from nav.planning.steering import decide, nearest
+from nav.planning.steering import Aim, decide, nearest
 
 TEXT = (Path(__file__).parents[1] / "nav/parameters/steering.toml").read_text()
 PARAMETERS = from_toml(SteeringParameters, TEXT, "steering.toml")
 THETA = np.linspace(-pi / 2, pi / 2, 181)
 D_MAX = 35.0
 REAL_M, SAFE_M = 0.95, 1.5
-steer = partial(decide, parameters=PARAMETERS)
+
+
+def steer(theta, real, safe, heading, goal, previous, speed, V0):
+    return decide(theta, real, safe, Aim(heading, goal, previous), speed, V0, PARAMETERS)
+
 
 # ---------------------------------------------------------------- the rules, by hand
 

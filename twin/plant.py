@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from nav.messages import ActuatorTargets, Gear
-from twin import clock
+from twin import clock, tire_collision
 from twin.drive_by_wire import DriveByWire, DriveByWireParameters
 from twin.drivetrain import (
     DrivetrainParameters,
@@ -31,6 +31,8 @@ CONTROL_S = CONTROL_STEPS * clock.STEP_S
 _SPEED_LEVEL_MPS = 0.05
 _CHASSIS, _OBSTACLE, _SOFT = 1, 2, 3
 _SITE = mujoco.mjtObj.mjOBJ_SITE
+
+tire_collision.install()  # here, so that a plant out of a pickle finds it in any process
 
 
 class Plant:

@@ -5,9 +5,8 @@ from math import atan2, cos, hypot, sin
 
 import numpy as np
 
-from nav.messages import Floats
 from nav.parameters.control import PathFollowing
-from nav.planning.curve import Curve
+from nav.planning.curve import Curve, nearest_index
 
 
 @dataclass(frozen=True)
@@ -22,13 +21,12 @@ class PathError:
 
 def path_error(curve: Curve, x_m: float, y_m: float, heading_rad: float) -> PathError:
     """Project a pose onto the curve, which goes on straight beyond its ends."""
-    d: Floats = curve.position_m - (x_m, y_m)
-    i = int(np.argmin(d[:, 0] ** 2 + d[:, 1] ** 2))
-    c, s = cos(curve.heading_rad[i]), sin(curve.heading_rad[i])
-    dx, dy = -float(d[i, 0]), -float(d[i, 1])
+    i = nearest_index(curve, x_m, y_m)
+    heading, bend = float(curve.heading_rad[i]), float(curve.curvature_per_m[i])
+    dx, dy = x_m - float(curve.position_m[i, 0]), y_m - float(curve.position_m[i, 1])
+    c, s = cos(heading), sin(heading)
     along, offset = c * dx + s * dy, c * dy - s * dx
-    bend = float(curve.curvature_per_m[i])
-    turned = heading_rad - float(curve.heading_rad[i]) - bend * along
+    turned = heading_rad - heading - bend * along
     return PathError(float(curve.arc_m[i]) + along, offset, atan2(sin(turned), cos(turned)))
 
 

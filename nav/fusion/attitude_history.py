@@ -41,7 +41,8 @@ class AttitudeHistory:
 
 
 def _between(a: Attitude, b: Attitude, share: float) -> Attitude:
-    return a._replace(
-        roll_rad=a.roll_rad + share * (b.roll_rad - a.roll_rad),
-        pitch_rad=a.pitch_rad + share * (b.pitch_rad - a.pitch_rad),
+    return Attitude(
+        a.roll_rad + share * (b.roll_rad - a.roll_rad),
+        a.pitch_rad + share * (b.pitch_rad - a.pitch_rad),
+        a.rate_radps,
     )

@@ -18,7 +18,7 @@ from nav.fusion.ego_filter import (
     Filter,
     X,
     Y,
-    along,
+    row,
 )
 from nav.fusion.ego_kinematics import Attitude, level, rocking
 from nav.fusion.ego_start import FirstHeading
@@ -26,6 +26,8 @@ from nav.messages import GpsFix
 from nav.parameters.ego_state import EgoParameters
 
 Offset = tuple[float, float, float]
+COURSE, AHEAD = row((HEADING, 1.0)), row((SPEED, 1.0))
+"""What a fix's velocity measures."""
 UNKNOWN_SPEED_MPS = 3.0
 """Standard deviation of the speed before the first measurement."""
 
@@ -83,8 +85,8 @@ def correct_position(
     c, s = math.cos(past.heading_rad), math.sin(past.heading_rad)
     x, y = past.x_m + c * forward - s * left, past.y_m + s * forward + c * left
     x0, y0, *_ = kalman.state.tolist()
-    row_x = ((X, 1.0), (HEADING, y0 - y), (SPEED, -past.age_s * c), (GPS_X, fix.sd_m))
-    row_y = ((Y, 1.0), (HEADING, x - x0), (SPEED, -past.age_s * s), (GPS_Y, fix.sd_m))
+    row_x = row((X, 1.0), (HEADING, y0 - y), (SPEED, -past.age_s * c), (GPS_X, fix.sd_m))
+    row_y = row((Y, 1.0), (HEADING, x - x0), (SPEED, -past.age_s * s), (GPS_Y, fix.sd_m))
     dx = measured_m[0] - x - fix.sd_m * float(kalman.state[GPS_X])
     dy = measured_m[1] - y - fix.sd_m * float(kalman.state[GPS_Y])
     variance = _white_variance(kalman.parameters, fix.sd_m)
@@ -94,7 +96,7 @@ def correct_position(
             kalman.doubt(X, dx)
             kalman.doubt(Y, dy)
         moved = kalman.update(row_x, dx, variance)
-        kalman.update(row_y, dy - along(row_y, moved), variance)
+        kalman.update(row_y, dy - row_y.along(moved), variance)
 
 
 def correct_velocity(kalman: Filter, fix: GpsFix, past: Past, mount: Offset) -> None:
@@ -110,8 +112,8 @@ def correct_velocity(kalman: Filter, fix: GpsFix, past: Past, mount: Offset) -> 
         sign = math.copysign(1.0, past.speed_mps)
         course = math.atan2(sign * left, sign * ahead)
         spread = variance / speed**2 + p.sideslip_rad**2
-        kalman.correct("gps course", fix.time_ns, ((HEADING, 1.0),), course, spread)
-    kalman.correct("gps speed", fix.time_ns, ((SPEED, 1.0),), ahead - past.speed_mps, variance)
+        kalman.correct("gps course", fix.time_ns, COURSE, course, spread)
+    kalman.correct("gps speed", fix.time_ns, AHEAD, ahead - past.speed_mps, variance)
 
 
 def _white_variance(p: EgoParameters, sd_m: float) -> float:

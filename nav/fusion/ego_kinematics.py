@@ -17,7 +17,7 @@ class Attitude(NamedTuple):
     def at(self, dt_s: float) -> "Attitude":
         """A little later, or earlier."""
         p, q, _ = self.rate_radps
-        return self._replace(roll_rad=self.roll_rad + p * dt_s, pitch_rad=self.pitch_rad + q * dt_s)
+        return Attitude(self.roll_rad + p * dt_s, self.pitch_rad + q * dt_s, self.rate_radps)
 
 
 def attitude_of(sample: ImuSample) -> Attitude:
@@ -43,12 +43,11 @@ def speed_of_wheels(
     """
     side = 0.5 * vehicle.track_m * yaw_rate_radps
     swing = (vehicle.wheelbase_m * yaw_rate_radps) ** 2
-    speeds: list[float] = []
-    for i, w in enumerate(wheel_speed_mps):
-        along = math.copysign(math.sqrt(max(w * w - swing, 0.0)), w) if i < 2 else w
-        speeds.append(along + (side if i % 2 == 0 else -side))
-    speeds.sort()
-    return 0.5 * (speeds[2] + speeds[3])
+    front = [math.copysign(math.sqrt(max(w * w - swing, 0.0)), w) for w in wheel_speed_mps[:2]]
+    wheels = front + wheel_speed_mps[2:]
+    left, right = [w + side for w in wheels[::2]], [w - side for w in wheels[1::2]]
+    _, _, lower, upper, _, _ = sorted(left + right)
+    return 0.5 * (lower + upper)
 
 
 def level(offset_m: tuple[float, float, float], attitude: Attitude) -> tuple[float, float]:
@@ -64,8 +63,3 @@ def rocking(offset_m: tuple[float, float, float], attitude: Attitude) -> tuple[f
     x, y, z = offset_m
     p, q, r = attitude.rate_radps
     return q * z - r * y, r * x - p * z
-
-
-def wrapped(angle_rad: float) -> float:
-    """The same angle in (-pi, pi]."""
-    return -((math.pi - angle_rad) % (2.0 * math.pi) - math.pi)

@@ -7,6 +7,7 @@ corrects it. Any sensor may be missing but the GPS, without which there is no st
 import math
 from dataclasses import dataclass
 
+from nav.angles import wrapped
 from nav.fusion import ego_gps
 from nav.fusion.attitude_history import SILENT_S, AttitudeHistory
 from nav.fusion.ego_filter import (
@@ -18,6 +19,7 @@ from nav.fusion.ego_filter import (
     Drive,
     Filter,
     Y,
+    row,
 )
 from nav.fusion.ego_kinematics import (
     Attitude,
@@ -25,7 +27,6 @@ from nav.fusion.ego_kinematics import (
     heading_rate,
     level,
     speed_of_wheels,
-    wrapped,
 )
 from nav.fusion.ego_start import Start
 from nav.fusion.erection import Erection
@@ -45,6 +46,9 @@ from nav.parameters.vehicle import VehicleParameters
 from nav.route.geodesy import Frame
 from nav.steering_circle import curvature
 
+STANDING, GYRO_AT_REST = row((SPEED, 1.0)), row((GYRO_BIAS, 1.0))
+COMPASS = row((COMPASS_BIAS, 1.0), (HEADING, 1.0))
+"""What is measured, whatever the state."""
 ACCELERATION_S = 0.2
 """Time constant of the acceleration that carries the speed back to a delayed fix."""
 
@@ -139,14 +143,16 @@ class EgoState:
 
     def pose_at(self, time_ns: int) -> Pose:
         """The pose some milliseconds before or after the newest message; heading in (-pi, pi]."""
+        return self._pose(time_ns, self._attitudes.at(time_ns))
+
+    def _pose(self, time_ns: int, attitude: Attitude) -> Pose:
         dt = min(max((time_ns - self._time_ns) * 1e-9, -SILENT_S), SILENT_S)
         x, y, heading, v = self.filter.state[:4].tolist()
         turn = self.filter.yaw_rate(self._drive) * dt
         way = v * dt * self._drive.cos_pitch
         middle = heading + 0.5 * turn
-        a = self._attitudes.at(time_ns)
         x, y = x + way * math.cos(middle), y + way * math.sin(middle)
-        return Pose(x, y, wrapped(heading + turn), a.roll_rad, a.pitch_rad)
+        return Pose(x, y, wrapped(heading + turn), attitude.roll_rad, attitude.pitch_rad)
 
     def gps_lost_s(self, time_ns: int) -> float:
         """Time since the last fix [s]; before any, since the first message of all."""
@@ -182,9 +188,10 @@ class EgoState:
             sideward = float(self.filter.state[SPEED]) * heading_rate(measured)
             dt_s = (time_ns - self._last.imu_ns) * 1e-9
             self._erection.follow(sideward, self._last.acceleration_mps2, dt_s)
-        return measured._replace(
-            roll_rad=measured.roll_rad - self._erection.roll_rad,
-            pitch_rad=measured.pitch_rad - self._erection.pitch_rad,
+        return Attitude(
+            measured.roll_rad - self._erection.roll_rad,
+            measured.pitch_rad - self._erection.pitch_rad,
+            measured.rate_radps,
         )
 
     def _imu_speaks(self, time_ns: int) -> bool:
@@ -219,17 +226,17 @@ class EgoState:
     def _correct_speed(self, time_ns: int, speed_mps: float) -> None:
         p, v = self.parameters.wheels, float(self.filter.state[SPEED])
         scale = 1.0 + float(self.filter.state[WHEEL_SCALE])
-        row = ((SPEED, scale), (WHEEL_SCALE, v))
         variance = p.sd_mps**2 + (p.sd_share * speed_mps) ** 2
-        self.filter.correct("wheels", time_ns, row, speed_mps - scale * v, variance)
+        turning = row((SPEED, scale), (WHEEL_SCALE, v))
+        self.filter.correct("wheels", time_ns, turning, speed_mps - scale * v, variance)
 
     def _correct_at_rest(self, time_ns: int) -> None:
         """A counter without sign makes speed of noise: at rest it is 0, and so is the yaw rate."""
         p, v = self.parameters.wheels, float(self.filter.state[SPEED])
-        self.filter.correct("wheels", time_ns, ((SPEED, 1.0),), -v, p.still_sd_mps**2)
+        self.filter.correct("wheels", time_ns, STANDING, -v, p.still_sd_mps**2)
         if self._drive.gyro and abs(v) < p.still_mps:
             rate = self.filter.yaw_rate(self._drive)
-            self.filter.update(((GYRO_BIAS, 1.0),), rate, p.still_gyro_sd_radps**2)
+            self.filter.update(GYRO_AT_REST, rate, p.still_gyro_sd_radps**2)
 
     def _take_fix(self, fix: GpsFix) -> None:
         if fix.quality is GpsQuality.NONE:
@@ -240,17 +247,18 @@ class EgoState:
         if ego_gps.is_another_offset(self.parameters, fix, before):
             self.filter.redraw_gps_offset()
         mount = self.vehicle.gps_position_m
-        ego_gps.correct_velocity(self.filter, fix, self._past(fix.time_ns), mount)
+        attitude = self._attitudes.at(fix.time_ns)
+        ego_gps.correct_velocity(self.filter, fix, self._past(fix.time_ns, attitude), mount)
         antenna = self.frame.point(fix.latitude_deg, fix.longitude_deg)
-        ego_gps.correct_position(self.filter, antenna, fix, self._past(fix.time_ns), mount)
+        past = self._past(fix.time_ns, attitude)
+        ego_gps.correct_position(self.filter, antenna, fix, past, mount)
 
-    def _past(self, time_ns: int) -> ego_gps.Past:
+    def _past(self, time_ns: int, attitude: Attitude) -> ego_gps.Past:
         """The vehicle at a fix's time, from the present state and rates."""
         age = (self._time_ns - time_ns) * 1e-9
-        pose = self.pose_at(time_ns)
+        pose = self._pose(time_ns, attitude)
         level_speed = self._drive.cos_pitch * float(self.filter.state[SPEED])
         speed = level_speed - self._last.acceleration_mps2 * age
-        attitude = self._attitudes.at(time_ns)
         return ego_gps.Past(pose.x_m, pose.y_m, pose.heading_rad, speed, attitude, age)
 
     def _take_compass(self, compass: CompassHeading) -> None:
@@ -260,6 +268,5 @@ class EgoState:
         heading, bias = float(self.filter.state[HEADING]), float(self.filter.state[COMPASS_BIAS])
         expected = heading - self.filter.yaw_rate(self._drive) * age + bias
         innovation = wrapped(compass.heading_rad - expected)
-        row = ((COMPASS_BIAS, 1.0), (HEADING, 1.0))
         variance = self.parameters.compass.sd_rad**2
-        self.filter.correct("compass", compass.time_ns, row, innovation, variance)
+        self.filter.correct("compass", compass.time_ns, COMPASS, innovation, variance)

@@ -53,7 +53,7 @@ class GroundProfile:
 
     def __init__(self, parameters: GroundParameters, size_m: float, wheel_m: Floats) -> None:
         self.parameters = parameters
-        self._wheel_m = wheel_m
+        self._wheel_m = [(float(x), float(y)) for x, y in wheel_m]
         self.lattice = Lattice(parameters.cell_m, round(size_m / parameters.cell_m))
         self.height_m = self._unknown()
         """Shape (count, count), above the datum; UNKNOWN_M where not known."""
@@ -96,23 +96,33 @@ class GroundProfile:
 
     def _stand(self, pose: Pose, way_m: float) -> None:
         """What is under the wheels is ground; where it is known, it draws the vehicle to it."""
-        c, s = self._ahead
-        x, y = self._wheel_m[:, 0], self._wheel_m[:, 1]
-        east, north = c * x - s * y, s * x + c * y
-        index, _ = self.lattice.index(pose.x_m + east, pose.y_m + north)
-        # the plane's height in the middle of the cells: they are coarse, and slopes would drag
-        middle = self.lattice.centre_m(index)
-        plane = self._plane[0] * (middle[0] - pose.x_m) + self._plane[1] * (middle[1] - pose.y_m)
-        cells = self.height_m.ravel()
-        known = cells[index] < UNKNOWN_M
-        if known.any():
-            offset = float(np.mean((cells[index] - plane)[known])) - self.vehicle_m
-            pull = _PULL * min(max(offset, -0.2), 0.2)
-            self.vehicle_m += pull
-            if way_m > _STANDS_M:  # a scanner that looks too deep by b pulls by b a metre of way
-                tilt = self.tilt_rad + pull / _TILT_WAY_M
-                self.tilt_rad = min(max(tilt, -_TILT_MAX_RAD), _TILT_MAX_RAD)
-        cells[index] = np.where(known, cells[index], self.vehicle_m + plane)
+        under = [self._under(pose, wheel) for wheel in self._wheel_m]
+        known = [(cell, plane) for cell, plane in under if self.height_m[cell] < UNKNOWN_M]
+        if known:
+            total = 0.0
+            for cell, plane in known:
+                total += float(self.height_m[cell]) - plane
+            self._draw(total / len(known) - self.vehicle_m, way_m)
+        for cell, plane in under:
+            if (cell, plane) not in known:
+                self.height_m[cell] = self.vehicle_m + plane
+
+    def _under(self, pose: Pose, wheel_m: tuple[float, float]) -> tuple[tuple[int, int], float]:
+        """The cell under a wheel, and how high the vehicle's plane lies in its middle: cells are
+        coarse, and slopes would drag."""
+        (c, s), (x, y) = self._ahead, wheel_m
+        cell = self.lattice.cell(pose.x_m + (c * x - s * y), pose.y_m + (s * x + c * y))
+        east, north = self.lattice.middle_m(cell)
+        plane = self._plane[0] * (east - pose.x_m) + self._plane[1] * (north - pose.y_m)
+        return cell, plane
+
+    def _draw(self, offset_m: float, way_m: float) -> None:
+        """Draw the vehicle's height to ground that is known to lie higher by the offset."""
+        pull = _PULL * min(max(offset_m, -0.2), 0.2)
+        self.vehicle_m += pull
+        if way_m > _STANDS_M:  # a scanner that looks too deep by b pulls by b a metre of way
+            tilt = self.tilt_rad + pull / _TILT_WAY_M
+            self.tilt_rad = min(max(tilt, -_TILT_MAX_RAD), _TILT_MAX_RAD)
 
     # ------------------------------------------------------------------ bound
 
@@ -143,7 +153,7 @@ class GroundProfile:
         guess = self.vehicle_m + bend * (east * east + north * north)
         bound = np.where(bound < 0.5 * UNKNOWN_M, bound, guess) + trend
         bound[forward < -cell_m] = UNKNOWN_M
-        return bound.repeat(2, axis=0).repeat(2, axis=1)
+        return bound.repeat(2, axis=1).repeat(2, axis=0)
 
     def _trend(
         self, height: Floats, place: tuple[Floats, Floats], ahead: NDArray[np.bool_]
@@ -177,7 +187,7 @@ class GroundProfile:
         """
         p = self.parameters
         index, inside = self.lattice.index(points[0], points[1])
-        above = points[2] + self.vehicle_m - self._bound.ravel()[index]
+        above = points[2] + self.vehicle_m - self._bound.ravel().take(index)
         high = above > p.step_m + p.tilt_rad * distance_m
         return high & inside & (above < p.clearance_m), ~high & inside, index
 
@@ -197,10 +207,11 @@ class GroundProfile:
             obstacle: shape (n,); cells with an obstacle learn nothing.
         """
         cells = self.height_m.ravel()
-        count = np.bincount(index[teaching], minlength=cells.size)
-        total = np.bincount(index[teaching], height_m[teaching], minlength=cells.size)
+        lesson = index[teaching]
+        count = np.bincount(lesson, minlength=cells.size)
+        total = np.bincount(lesson, height_m[teaching], minlength=cells.size)
         count[index[obstacle]] = 0
-        taught = np.flatnonzero(count)
+        taught = np.flatnonzero(count > 0)  # of bools: twice as fast
         mean = total[taught] / count[taught] + self.vehicle_m
         old = cells[taught]
         gain = np.where(old < UNKNOWN_M, self.parameters.gain, 1.0)
@@ -221,12 +232,11 @@ def _blocks(cells: Floats) -> Floats:
 
 def _eroded(height: Floats, rise: tuple[float, ...]) -> Floats:
     """Lowest of each cell and its neighbours k cells away, plus rise[k - 1], along both axes."""
-    for axis in (0, 1):
-        source = height if axis == 0 else height.T
-        result = source.copy()
+    for _ in range(2):  # whole rows are lowered at a time: twice as quick as columns
+        result = height.copy()
         for k, up in enumerate(rise, 1):
-            lifted = source + up
+            lifted = height + up
             np.minimum(result[k:], lifted[:-k], out=result[k:])
             np.minimum(result[:-k], lifted[k:], out=result[:-k])
-        height = result if axis == 0 else result.T
+        height = np.ascontiguousarray(result.T)
     return height

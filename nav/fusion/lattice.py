@@ -1,6 +1,7 @@
 """A square lattice of cells along the axes of N that follows the vehicle in whole cells."""
 
 from dataclasses import dataclass
+from math import floor
 from typing import Any, TypeVar
 
 import numpy as np
@@ -42,6 +43,16 @@ class Lattice:
             abs(x_m - (self.west + half) * self.cell_m),
             abs(y_m - (self.south + half) * self.cell_m),
         )
+
+    def cell(self, x_m: float, y_m: float) -> tuple[int, int]:
+        """Row and column of one place: `index` without arrays."""
+        scale = 1 / self.cell_m
+        return floor(y_m * scale) - self.south, floor(x_m * scale) - self.west
+
+    def middle_m(self, cell: tuple[int, int]) -> tuple[float, float]:
+        """Centre x, y of a cell (row, column), route frame N, [m]."""
+        row, column = cell
+        return (column + (self.west + 0.5)) * self.cell_m, (row + (self.south + 0.5)) * self.cell_m
 
     def index(self, x_m: Floats, y_m: Floats) -> tuple[Ints, NDArray[np.bool_]]:
         """Flat cell indices of places, shape (n,); -1 and False for what lies outside."""

@@ -4,12 +4,14 @@ The level frame has the axes of N and its height zero at the reference point, so
 (east, north, height above the ground under the middle of the rear axles).
 """
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from math import cos, sin
 from typing import NamedTuple
 
 import numpy as np
 
+from nav.fusion.lattice import Ints
 from nav.messages import LIDAR_COUNT_M, LIDAR_NO_RETURN_COUNT, Floats
 from nav.parameters.vehicle import Lidar, LidarMount, Outline
 
@@ -31,27 +33,31 @@ class Pose(NamedTuple):
 
 @dataclass(frozen=True, eq=False)
 class ScanGeometry:
-    """The fan of one mounted scanner in the vehicle frame."""
+    """One mounted scanner in the vehicle frame."""
 
-    position_m: Floats
-    """Shape (3,)."""
-    axes: Floats
-    """Shape (3, 2): the fan's own forward and left direction; beam a is axes @ (cos a, sin a)."""
-    direction: Floats
-    """Shape (3, count), unit vectors."""
+    mount: Floats
+    """Shape (3, 3): columns are the fan's forward and left direction and its place, [m]."""
+    ray: Floats
+    """Shape (2, count): how far each beam goes forward and left in its fan, for each metre."""
     exit_m: Floats
     """Shape (count,): where each beam leaves the vehicle's own outline, [m]."""
     first_rad: float
     step_rad: float
 
 
-class Placed(NamedTuple):
-    """Where the scanner stands in the level frame, and how it is turned."""
+class Scans(NamedTuple):
+    """k scans of scanners of one kind at their places in the level frame."""
 
-    origin_m: Floats
-    """Shape (3,)."""
-    turn: Floats
-    """Shape (3, 3), from the vehicle frame: beams are turn @ geometry.direction."""
+    geometry: Sequence[ScanGeometry]
+    frame: Floats
+    """Shape (k, 3, 3): as `placed`, at each scan's time."""
+    range_m: Floats
+    """Shape (k, count)."""
+
+    def only(self, which: list[int]) -> "Scans":
+        """Some of them."""
+        chosen = [self.geometry[k] for k in which]
+        return Scans(chosen, self.frame[which], self.range_m[which])
 
 
 def rotation(roll_rad: float, pitch_rad: float, yaw_rad: float) -> Floats:
@@ -70,15 +76,14 @@ def rotation(roll_rad: float, pitch_rad: float, yaw_rad: float) -> Floats:
 
 def scan_geometry(mount: LidarMount, lidar: Lidar, outline: Outline) -> ScanGeometry:
     """Unit vectors of all beams of one scanner, and where they leave the vehicle's outline."""
-    axes = np.ascontiguousarray(rotation(mount.roll_rad, mount.pitch_rad, mount.yaw_rad)[:, :2])
+    axes = rotation(mount.roll_rad, mount.pitch_rad, mount.yaw_rad)[:, :2]
     angle = lidar.first_rad + lidar.step_rad * np.arange(lidar.count)
-    direction = axes @ np.stack([np.cos(angle), np.sin(angle)])
+    ray = np.stack([np.cos(angle), np.sin(angle)])
     position = np.array(mount.position_m)
     return ScanGeometry(
-        position_m=position,
-        axes=axes,
-        direction=direction,
-        exit_m=_exit_m(position, direction, outline),
+        mount=np.column_stack([axes, position]),
+        ray=ray,
+        exit_m=_exit_m(position, axes @ ray, outline),
         first_rad=lidar.first_rad,
         step_rad=lidar.step_rad,
     )
@@ -96,30 +101,28 @@ def _exit_m(position: Floats, direction: Floats, outline: Outline) -> Floats:
     return (np.abs(wall) / along).min(axis=1)
 
 
-def placed(geometry: ScanGeometry, pose: Pose) -> Placed:
-    """The scanner in the level frame, for the measured attitude."""
-    turn = rotation(pose.roll_rad, pose.pitch_rad, pose.heading_rad)
-    origin = turn @ geometry.position_m
-    origin[0] += pose.x_m
-    origin[1] += pose.y_m
-    return Placed(origin, turn)
+def placed(geometry: ScanGeometry, pose: Pose) -> Floats:
+    """The scanner's `mount` in the level frame, for the measured attitude, shape (3, 3)."""
+    frame = rotation(pose.roll_rad, pose.pitch_rad, pose.heading_rad) @ geometry.mount
+    frame[0, 2] += pose.x_m
+    frame[1, 2] += pose.y_m
+    return frame
 
 
-def level_points(
-    geometry: ScanGeometry, scanner: Placed, range_m: Floats, max_range_m: float
-) -> Floats:
-    """Returns of one scan in the level frame, without our own outline.
+def returns(scans: Scans, max_range_m: float) -> Ints:
+    """Flat indices, scan after scan, of beams that came back and not from our own outline.
 
     Args:
-        geometry: the scanner.
-        scanner: as `placed` at the scan's time.
-        range_m: shape (count,), [m].
+        scans: k of them.
         max_range_m: farther returns are left out, as are beams without one.
-
-    Returns:
-        Points, shape (3, m), [m].
     """
+    exit_m = np.array([geometry.exit_m for geometry in scans.geometry])
     far = min(max_range_m, NO_RETURN_M)
-    hit = np.flatnonzero((range_m > geometry.exit_m) & (range_m < far))
-    direction = scanner.turn @ geometry.direction.take(hit, axis=1)
-    return direction * range_m.take(hit) + scanner.origin_m[:, None]
+    return np.flatnonzero((scans.range_m > exit_m) & (scans.range_m < far))
+
+
+def level_points(scans: Scans, beam: Ints) -> Floats:
+    """Where some beams end, in the level frame: shape (3, m), [m]; `beam` as from `returns`."""
+    way = scans.range_m[:, None] * scans.geometry[0].ray  # (k, 2, count)
+    points = scans.frame[:, :, :2] @ way + scans.frame[:, :, 2:]  # (k, 3, count)
+    return points.swapaxes(0, 1).reshape(3, -1).take(beam, axis=1)

@@ -1,13 +1,10 @@
 """What scanners say of cells that they did not hit: passed through, ended beside, or not seen."""
 
-from collections.abc import Sequence
-from typing import NamedTuple
-
 import numpy as np
 from numpy.typing import NDArray
 
 from nav.fusion.lattice import Ints
-from nav.fusion.scan_geometry import Placed, ScanGeometry
+from nav.fusion.scan_geometry import Scans
 from nav.messages import Floats
 
 LOW_M = 0.5
@@ -15,34 +12,26 @@ LOW_M = 0.5
 Bools = NDArray[np.bool_]
 
 
-class View(NamedTuple):
-    """The newest scan of one scanner."""
-
-    geometry: ScanGeometry
-    scanner: Placed
-    range_m: Floats
-
-
-def look(views: Sequence[View], place: Floats, margin_m: float) -> tuple[Bools, Bools]:
-    """What k scanners say of n cells at `place` (east, north, top), shape (3, n).
+def look(scans: Scans, place: Floats, margin_m: float) -> tuple[Bools, Bools]:
+    """What k scans say of n cells at `place` (east, north, top), shape (3, n).
 
     Returns:
         through: a beam passes the cell no higher than its top. beside: no beam does, but one ends
         near the cell's distance. Both (n,). Three neighbouring beams must agree.
     """
-    origin = np.array([view.scanner.origin_m for view in views])[:, :, None]  # (k, 3, 1)
-    rise = np.array([view.scanner.turn[2] @ view.geometry.direction for view in views])
+    rise = scans.frame[:, 2, :2] @ scans.geometry[0].ray  # (k, count), for each metre of beam
     level = np.sqrt(1.0 - rise * rise)
-    nearest, farthest = _neighbours(np.array([view.range_m for view in views]) * level)
+    nearest, farthest = _of_three(scans.range_m * level)
 
-    x, y = place[0] - origin[:, 0], place[1] - origin[:, 1]  # (k, n)
+    x, y, z = scans.frame[:, :, 2].T[..., None]  # (k, 1) each
+    x, y = place[0] - x, place[1] - y  # (k, n)
     distance = np.sqrt(x * x + y * y)
-    beam, inside = _beam(views, x, y)
-    height = origin[:, 2] + distance * (rise / level).ravel()[beam]
+    beam, inside = _beam(scans, x, y)
+    height = z + distance * (rise / level)[:, 1:-1].ravel().take(beam)
     low = inside & (height <= place[2] + _slack_m(place[2], distance))
-    over = nearest.ravel()[beam] - distance
+    over = nearest.take(beam) - distance
     through = (low & (over > margin_m)).any(axis=0)
-    spread = (farthest - nearest).ravel()[beam]  # when grazing, returns lie far apart
+    spread = (farthest - nearest).take(beam)  # when grazing, returns lie far apart
     beside = (low & (np.abs(over) <= margin_m) & (spread < 2 * margin_m)).any(axis=0)
     return through, beside & ~through
 
@@ -56,25 +45,22 @@ def _slack_m(top_m: Floats, distance_m: Floats) -> Floats:
     return np.where(top_m < LOW_M, -0.03 - 0.004 * distance_m, 0.02 + 0.002 * distance_m)
 
 
-def _beam(views: Sequence[View], x: Floats, y: Floats) -> tuple[Ints, Bools]:
-    """Index into all beams, (k, n), of the one above or below a place that lies (x, y) from the
-    scanner, and whether there is one with two neighbours.
+def _beam(scans: Scans, x: Floats, y: Floats) -> tuple[Ints, Bools]:
+    """Index into all beams that have two neighbours, (k, n), of the one above or below a place
+    that lies (x, y) from the scanner, and whether there is one.
 
     The fan's beam a is forward * cos a + left * sin a; its level part is parallel to (x, y).
     """
-    axes = np.array([view.scanner.turn[:2] @ view.geometry.axes for view in views])[..., None]
-    forward, left = axes[:, :, 0], axes[:, :, 1]  # (k, 2, 1)
+    forward, left = scans.frame[:, :2, 0, None], scans.frame[:, :2, 1, None]  # (k, 2, 1)
     angle = np.arctan2(forward[:, 0] * y - forward[:, 1] * x, left[:, 1] * x - left[:, 0] * y)
-    fan, count = views[0].geometry, len(views[0].range_m)
-    beam = np.rint((angle - fan.first_rad) * (1 / fan.step_rad)).astype(np.int64)
-    inside = (beam >= 1) & (beam < count - 1)
-    return np.where(inside, beam, 0) + count * np.arange(len(views))[:, None], inside
+    fan, inner = scans.geometry[0], scans.range_m.shape[1] - 2
+    beam = np.rint((angle - fan.first_rad) * (1 / fan.step_rad)).astype(np.int64) - 1
+    inside = (beam >= 0) & (beam < inner)
+    return np.where(inside, beam, 0) + inner * np.arange(len(beam))[:, None], inside
 
 
-def _neighbours(range_m: Floats) -> tuple[Floats, Floats]:
-    """Nearest and farthest of each beam and its two neighbours, shape (k, count)."""
-    nearest, farthest = range_m.copy(), range_m.copy()
-    for one, other in ((slice(1, None), slice(None, -1)), (slice(None, -1), slice(1, None))):
-        np.minimum(nearest[:, one], range_m[:, other], out=nearest[:, one])
-        np.maximum(farthest[:, one], range_m[:, other], out=farthest[:, one])
-    return nearest, farthest
+def _of_three(range_m: Floats) -> tuple[Floats, Floats]:
+    """Nearest and farthest of each beam and its two neighbours, shape (k, count - 2)."""
+    right, left = range_m[:, :-1], range_m[:, 1:]
+    nearer, farther = np.minimum(right, left), np.maximum(right, left)
+    return np.minimum(nearer[:, :-1], nearer[:, 1:]), np.maximum(farther[:, :-1], farther[:, 1:])

@@ -1,5 +1,8 @@
 """The corridor's edges on the map's lattice, as boundaries: real and safe."""
 
+from collections.abc import Sequence
+from math import hypot
+
 import numpy as np
 from numpy.typing import NDArray
 
@@ -26,6 +29,19 @@ def corridor_distance(
     return inside
 
 
+def edge_levels(inside_m: NDArray[np.float32], margin_m: Sequence[float]) -> NDArray[np.uint8]:
+    """How many boundaries of the corridor's edge a cell is inside of, from how far it lies inside.
+
+    Args:
+        inside_m: from `corridor_distance`.
+        margin_m: the boundaries begin this far inside the edge, from the outermost, SAFE, inwards.
+    """
+    level = np.zeros(inside_m.shape, np.uint8)
+    for margin in margin_m:
+        level += inside_m < margin
+    return level
+
+
 def _draw(
     inside: NDArray[np.float32], lattice: Lattice, a: Floats, b: Floats, half_width_m: float
 ) -> None:
@@ -33,12 +49,14 @@ def _draw(
     columns, x = _span(lattice, 0, min(a[0], b[0]) - half_width_m, max(a[0], b[0]) + half_width_m)
     if not len(x) or not len(y):
         return
-    along = b - a
-    dx, dy = (x - a[0])[None, :], (y - a[1])[:, None]
-    t = np.clip((dx * along[0] + dy * along[1]) / float(along @ along), 0.0, 1.0)
-    distance = np.hypot(dx - t * along[0], dy - t * along[1])
+    along_x, along_y = (b - a).tolist()
+    length = hypot(along_x, along_y)
+    c, s = along_x / length, along_y / length
+    dx, dy = (x - a[0]).astype(np.float32)[None, :], (y - a[1]).astype(np.float32)[:, None]
+    forward, left = c * dx + s * dy, c * dy - s * dx
+    beyond = np.maximum(np.maximum(-forward, forward - length), 0.0)
     window = inside[rows, columns]
-    np.maximum(window, half_width_m - distance, out=window, casting="same_kind")
+    np.maximum(window, half_width_m - np.sqrt(beyond * beyond + left * left), out=window)
 
 
 def _span(lattice: Lattice, axis: int, low_m: float, high_m: float) -> tuple[slice, Floats]:

@@ -1,6 +1,7 @@
 """A sampled plane curve, and the Catmull-Rom cubic (6.1), (6.4) through points."""
 
 from dataclasses import dataclass
+from math import pi
 
 import numpy as np
 
@@ -31,21 +32,34 @@ def curve_through(points_m: Floats) -> Curve:
     position, tangent, second = catmull_rom(points_m, SAMPLES)
     speed = np.maximum(np.hypot(tangent[:, 0], tangent[:, 1]), 1e-6)
     bend = (tangent[:, 0] * second[:, 1] - tangent[:, 1] * second[:, 0]) / speed**3
-    heading = np.unwrap(np.arctan2(tangent[:, 1], tangent[:, 0]))
+    heading = _directions(tangent)
     return Curve(position, heading, bend, arc_of(position))
 
 
 def sampled(position_m: Floats) -> Curve:
     """Heading, curvature and arc of a dense polyline, shape (k, 2), by differences."""
-    step = np.diff(position_m, axis=0)
+    step = position_m[1:] - position_m[:-1]
     length = np.hypot(step[:, 0], step[:, 1])
-    direction = np.unwrap(np.arctan2(step[:, 1], step[:, 0]))
+    direction = _directions(step)
     middle = 0.5 * (direction[:-1] + direction[1:])
     heading = np.concatenate([[direction[0]], middle, [direction[-1]]])
-    bend = np.diff(direction) / np.maximum(0.5 * (length[:-1] + length[1:]), 1e-6)
+    bend = (direction[1:] - direction[:-1]) / np.maximum(0.5 * (length[:-1] + length[1:]), 1e-6)
     inner = bend if len(bend) else np.zeros(1)
     curvature = np.concatenate([[inner[0]], bend, [inner[-1]]])
-    return Curve(position_m, heading, curvature, arc_of(position_m))
+    arc = np.concatenate([[0.0], length.cumsum()])
+    return Curve(position_m, heading, curvature, arc)
+
+
+def _directions(vectors: Floats) -> Floats:
+    """Of vectors (k, 2) along a curve, continuous; np.unwrap is slow, and jumps are rare."""
+    direction = np.arctan2(vectors[:, 1], vectors[:, 0])
+    return np.unwrap(direction) if direction.max() - direction.min() > pi else direction
+
+
+def nearest_index(curve: Curve, x_m: float, y_m: float) -> int:
+    """The sample nearest to a place."""
+    dx, dy = curve.position_m[:, 0] - x_m, curve.position_m[:, 1] - y_m
+    return int((dx * dx + dy * dy).argmin())
 
 
 def resampled(curve: Curve, arc_m: Floats) -> Floats:

@@ -47,7 +47,7 @@ def route_ahead(
     position, heading = route.position_m[part], route.heading_rad[part]
     if join_m > 0.0:
         e = _join(route.arc_m[part] - route.arc_m[first], offset_m, turned_rad, join_m)
-        left: Floats = np.stack([-np.sin(heading), np.cos(heading)], axis=1)
+        left: Floats = np.array([-np.sin(heading), np.cos(heading)]).T
         position = position + e[:, None] * left
     return sampled(position)
 
@@ -75,7 +75,7 @@ def _join(arc_m: Floats, offset_m: float, turned_rad: float, join_m: float) -> F
 def towards(curves: Fan, row: int, x_m: float, y_m: float, heading_rad: float) -> Curve:
     """The fan's curve of a direction, placed at a pose."""
     c, s = cos(heading_rad), sin(heading_rad)
-    u, v = curves.position_m[row, :, 0], curves.position_m[row, :, 1]
+    u, v = curves.position_m[:, row].astype(np.float64)
     return sampled(np.stack([x_m + c * u - s * v, y_m + s * u + c * v], axis=1))
 
 
@@ -89,6 +89,9 @@ class Clear(NamedTuple):
 
 def clear_distances(curve: Curve, boundaries: Boundaries, footprint: Footprint) -> Clear:
     """How far a curve is free of each boundary."""
-    centres = discs(curve.position_m, curve.heading_rad, footprint)
-    level = boundaries.at(centres[..., 0], centres[..., 1]).max(axis=-1)[None, :]
+    x, y = discs(curve.position_m.T, curve.heading_rad, footprint)
+    level = boundaries.at(x, y).max(axis=0)[None, :]
+    if not level.any():  # mostly
+        end = float(curve.arc_m[-1])
+        return Clear(end, end, end)
     return Clear(*(float(free_distance(level, curve.arc_m, b)[0]) for b in (SAFE, REAL, TOUCH)))

@@ -7,7 +7,8 @@ whole outline is moved along the curve, as discs on the vehicle's axis.
 """
 
 from dataclasses import dataclass
-from typing import NamedTuple
+from math import cos, sin
+from typing import NamedTuple, TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
@@ -15,6 +16,9 @@ from numpy.typing import NDArray
 from nav.messages import Floats
 from nav.parameters.planning import Footprint, Scanning
 from nav.planning.boundaries import REAL, SAFE, TOUCH
+
+Singles = NDArray[np.float32]
+Reals = TypeVar("Reals", Floats, Singles)
 
 ESCAPE_M = 4.0
 """A vehicle that stands inside a boundary may take this far to leave it ..."""
@@ -35,12 +39,16 @@ class Boundaries:
 
     def at(self, x_m: Floats, y_m: Floats) -> NDArray[np.uint8]:
         """Levels at positions of any shape; beyond the map all is free."""
-        rows, columns = self.level.shape
-        ix = ((x_m - self.origin_m[0]) * (1.0 / self.cell_m)).astype(np.int32)
-        iy = ((y_m - self.origin_m[1]) * (1.0 / self.cell_m)).astype(np.int32)
-        outside = (ix < 0) | (iy < 0) | (ix >= columns) | (iy >= rows)
-        flat = np.where(outside, 0, iy * columns + ix)
-        return np.where(outside, 0, self.level.ravel()[flat]).astype(np.uint8)
+        per_m = 1.0 / self.cell_m
+        return self.of_cells((x_m - self.origin_m[0]) * per_m, (y_m - self.origin_m[1]) * per_m)
+
+    def of_cells(self, column: Reals, row: Reals) -> NDArray[np.uint8]:
+        """Levels at positions in cells from the lower left corner."""
+        count = len(self.level)
+        ix, iy = column.astype(np.int32), row.astype(np.int32)
+        # as unsigned numbers, what is negative is large: one comparison for both ends
+        inside = (ix.view(np.uint32) < count) & (iy.view(np.uint32) < count)
+        return self.level.take(iy * count + ix, mode="clip") * inside
 
 
 @dataclass(frozen=True)
@@ -59,18 +67,21 @@ class Turning:
 
 @dataclass(frozen=True, eq=False)
 class Fan:
-    """Curves into all directions from a vehicle at the origin that heads along x."""
+    """Curves into all directions from a vehicle at the origin that heads along x.
+
+    Places are in single precision, half the time for a hundredth of a millimetre.
+    """
 
     theta_rad: Floats
     """Shape (n,), directions relative to the heading, left positive."""
     arc_m: Floats
     """Shape (m,), distances along a curve."""
-    position_m: Floats
-    """Shape (n, m, 2), the reference point."""
+    position_m: Singles
+    """Shape (2, n, m), x and y of the reference point."""
     heading_rad: Floats
     """Shape (n, m)."""
-    disc_m: Floats
-    """Shape (n, m, discs, 2), centres of the footprint's discs."""
+    disc_m: Singles
+    """Shape (2, discs, n, m), x and y of the centres of the footprint's discs."""
 
 
 def fan(scanning: Scanning, footprint: Footprint, turning: Turning) -> Fan:
@@ -80,11 +91,12 @@ def fan(scanning: Scanning, footprint: Footprint, turning: Turning) -> Fan:
     bend = _bend(theta, arc, turning)
     heading = np.zeros_like(bend)
     np.cumsum(0.5 * (bend[:, 1:] + bend[:, :-1]) * scanning.step_m, axis=1, out=heading[:, 1:])
-    middle = 0.5 * (heading[:, 1:] + heading[:, :-1])
-    position = np.zeros((*bend.shape, 2))
-    np.cumsum(scanning.step_m * np.cos(middle), axis=1, out=position[:, 1:, 0])
-    np.cumsum(scanning.step_m * np.sin(middle), axis=1, out=position[:, 1:, 1])
-    return Fan(theta, arc, position, heading, discs(position, heading, footprint))
+    middle = (0.5 * (heading[:, 1:] + heading[:, :-1])).astype(np.float32)
+    position = np.zeros((2, *bend.shape), np.float32)
+    np.cumsum(scanning.step_m * np.cos(middle), axis=1, out=position[0, :, 1:])
+    np.cumsum(scanning.step_m * np.sin(middle), axis=1, out=position[1, :, 1:])
+    centres = discs(position, heading.astype(np.float32), footprint)
+    return Fan(theta, arc, position, heading, centres)
 
 
 def _bend(theta: Floats, arc: Floats, t: Turning) -> Floats:
@@ -101,16 +113,18 @@ def _bend(theta: Floats, arc: Floats, t: Turning) -> Floats:
     peak = np.maximum(np.minimum(peak, np.maximum(t.limit_per_m, k0)), np.maximum(k0, 0.0))
     rest = np.maximum(turn - (2.0 * peak**2 - k0**2) / (2.0 * r), 0.0)
     held = (peak - k0) / r + rest / np.maximum(peak, 1e-9)
-    way = (arc - t.delay_m)[None, :]
-    rising = np.minimum(k0[:, None] + r * np.maximum(way, 0.0), peak[:, None])
-    falling = np.maximum(peak[:, None] - r * (way - held[:, None]), 0.0)
-    return sign[:, None] * np.where(way <= held[:, None], rising, falling)
+    wound = r * (arc - t.delay_m)
+    rising = np.minimum(k0[:, None] + np.maximum(wound, 0.0), peak[:, None])
+    falling = np.maximum((peak + r * held)[:, None] - wound, 0.0)  # above the peak until then
+    return sign[:, None] * np.minimum(rising, falling)
 
 
-def discs(position_m: Floats, heading_rad: Floats, footprint: Footprint) -> Floats:
-    """Centres of the footprint's discs, shape (..., discs, 2), for poses (..., 2) and (...)."""
-    axis = np.stack([np.cos(heading_rad), np.sin(heading_rad)], axis=-1)
-    return position_m[..., None, :] + axis[..., None, :] * np.array(footprint.disc_x_m)[:, None]
+def discs(position_m: Reals, heading_rad: Reals, footprint: Footprint) -> Reals:
+    """Centres of the footprint's discs, shape (2, discs, ...), for poses (2, ...) and (...)."""
+    axis = np.array([np.cos(heading_rad), np.sin(heading_rad)])
+    ahead = np.array(footprint.disc_x_m, heading_rad.dtype)
+    ahead = ahead.reshape(-1, *(1 for _ in heading_rad.shape))
+    return position_m[:, None] + axis[:, None] * ahead
 
 
 class Distances(NamedTuple):
@@ -128,9 +142,11 @@ def scan(
     curves: Fan, boundaries: Boundaries, x_m: float, y_m: float, heading_rad: float
 ) -> Distances:
     """Distances to all boundaries from a pose in the frame N."""
-    c, s = np.cos(heading_rad), np.sin(heading_rad)
-    u, v = curves.disc_m[..., 0], curves.disc_m[..., 1]
-    level = boundaries.at(x_m + c * u - s * v, y_m + s * u + c * v).max(axis=-1)
+    per_m = 1.0 / boundaries.cell_m
+    column, row = (x_m - boundaries.origin_m[0]) * per_m, (y_m - boundaries.origin_m[1]) * per_m
+    c, s = cos(heading_rad) * per_m, sin(heading_rad) * per_m
+    u, v = curves.disc_m
+    level = boundaries.of_cells(column + c * u - s * v, row + s * u + c * v).max(axis=0)
     return Distances(*(free_distance(level, curves.arc_m, b) for b in (SAFE, REAL, TOUCH)))
 
 
@@ -143,7 +159,8 @@ def free_distance(level: NDArray[np.uint8], arc_m: Floats, boundary: int) -> Flo
     if blocked[:, 0].any():
         blocked &= ~_leaving(level, blocked, arc_m, ESCAPE_SLACK_M[boundary])
     first = blocked.argmax(axis=-1)
-    return np.where(blocked.any(axis=-1), arc_m[first], arc_m[-1])
+    met = blocked[np.arange(len(first)), first]
+    return np.where(met, arc_m[first], arc_m[-1])
 
 
 def _leaving(

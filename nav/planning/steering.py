@@ -51,6 +51,17 @@ class SteeringDecision:
     """Strength of each cell of Table 6.1, and of what was added to it, in words."""
 
 
+class Aim(NamedTuple):
+    """The directions that all others are compared with; none need lie among those scanned."""
+
+    heading_rad: float
+    """theta(k)."""
+    goal_rad: float
+    """phi(k)."""
+    previous_rad: float | None
+    """theta_D(k-1), or None where there was none."""
+
+
 class _Choice(NamedTuple):
     """Equations (6.5) and (6.6) on one boundary."""
 
@@ -63,9 +74,7 @@ def decide(
     theta_rad: Floats,
     distance_real_m: Floats,
     distance_safe_m: Floats,
-    heading_rad: float,
-    goal_rad: float,
-    previous_rad: float | None,
+    aim: Aim,
     speed_mps: float,
     V0_mps: float,
     parameters: SteeringParameters,
@@ -75,23 +84,22 @@ def decide(
     Args:
         theta_rad: shape (n,), directions; the decision is one of them.
         distance_real_m, distance_safe_m: shape (n,), D_R(theta) and D_S(theta), finite.
-        heading_rad, goal_rad: theta(k), phi(k); neither need lie among the directions.
-        previous_rad: theta_D(k-1), or None where there was none.
+        aim: heading, goal and previous decision.
         speed_mps, V0_mps: v(k) and the speed limit.
         parameters: `steering.toml`.
     """
     S = situation(speed_mps, V0_mps, parameters)
-    delta = deduction(theta_rad, heading_rad, goal_rad, previous_rad, S.stretch, parameters)
+    delta = deduction(theta_rad, *aim, S.stretch, parameters)
 
     def choose(distance_m: Floats, limit_m: float) -> _Choice:
         criterion, among = candidates(distance_m - delta, limit_m, parameters.criterion.epsilon_m)
-        return _Choice(criterion, among, nearest(theta_rad, among, goal_rad, previous_rad))
+        return _Choice(criterion, among, nearest(theta_rad, among, aim.goal_rad, aim.previous_rad))
 
     real = choose(distance_real_m, parameters.criterion.real_m)
     safe = choose(distance_safe_m, parameters.criterion.safe_m)
     theta_RD, theta_SD = float(theta_rad[real.row]), float(theta_rad[safe.row])
     open_m = float(distance_safe_m[safe.row])
-    strength = select_strengths(theta_RD, theta_SD, goal_rad, open_m, parameters)
+    strength = select_strengths(theta_RD, theta_SD, aim.goal_rad, open_m, parameters)
     selected = pick(parameters.select, strength)
     theta_D = theta_SD if selected == "safe" else theta_RD
     return SteeringDecision(

@@ -8,6 +8,7 @@ rounded inside the corridor (`rounding`), before it interpolates.
 
 import math
 from dataclasses import dataclass
+from functools import lru_cache
 from typing import NamedTuple
 
 import numpy as np
@@ -85,12 +86,18 @@ def catmull_rom(points: Floats, steps: int) -> tuple[Floats, Floats, Floats]:
     """
     P = np.concatenate([[2 * points[0] - points[1]], points, [2 * points[-1] - points[-2]]])
     window = np.stack([P[:-3], P[1:-2], P[2:-1], P[3:]])  # (4, n - 1, 2)
-    s = np.arange(steps) / steps
     curves: list[Floats] = []
-    for row, end in zip(_coefficients(s), _coefficients(np.ones(1)), strict=True):
+    for row, end in _weights(steps):
         inner = np.einsum("as,aic->isc", row, window).reshape(-1, 2)
         curves.append(np.concatenate([inner, np.einsum("as,ac->sc", end, window[:, -1])]))
     return curves[0], curves[1], curves[2]
+
+
+@lru_cache(maxsize=8)
+def _weights(steps: int) -> tuple[tuple[Floats, Floats], ...]:
+    """P, P' and P'' each: its coefficients at the samples of a piece, and at the very end."""
+    samples, end = _coefficients(np.arange(steps) / steps), _coefficients(np.ones(1))
+    return tuple(zip(samples, end, strict=True))
 
 
 def _coefficients(s: Floats) -> tuple[Floats, Floats, Floats]:

@@ -8,12 +8,12 @@ would mean a stop before every sharp turn.
 
 import numpy as np
 
+from nav.angles import wrapped
 from nav.parameters import Parameters
-from nav.planning.angles import wrapped
 from nav.planning.local_path import path_length, pathpoints, towards
 from nav.planning.scanning import Turning, fan, scan
 from nav.planning.speed import set_point
-from nav.planning.steering import decide
+from nav.planning.steering import Aim, decide
 from nav.states.memory import Memory
 from nav.states.replanning import distance_ahead, due
 from nav.states.situation import Plan, Situation
@@ -34,9 +34,7 @@ def plan(s: Situation, memory: Memory, p: Parameters) -> Plan:
         theta,
         distances.real_m,
         distances.safe_m,
-        ego.heading_rad,
-        s.goal_rad,
-        memory.decision_rad,
+        Aim(ego.heading_rad, s.goal_rad, memory.decision_rad),
         ego.speed_mps,
         s.V0_mps,
         p.steering,

@@ -2,8 +2,8 @@
 
 from math import sqrt
 
+from nav.angles import wrapped
 from nav.parameters import Parameters
-from nav.planning.angles import wrapped
 from nav.planning.local_path import AHEAD_M, path_length, pathpoints
 from nav.planning.speed import set_point
 from nav.states.memory import Memory

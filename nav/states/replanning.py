@@ -1,10 +1,8 @@
 """When a new local path is due: the left half of Fig. 6.4."""
 
-import numpy as np
-
 from nav.messages import Floats
 from nav.parameters import Parameters
-from nav.planning.curve import Curve
+from nav.planning.curve import Curve, nearest_index
 from nav.planning.local_path import FIFTH, clear_distances
 from nav.states.memory import Memory
 from nav.states.situation import Situation
@@ -37,8 +35,7 @@ def distance_ahead(s: Situation, memory: Memory, beyond_m: float, p: Parameters)
 
 
 def _index(curve: Curve, point_m: Floats) -> int:
-    d = curve.position_m - point_m
-    return int(np.argmin(d[:, 0] ** 2 + d[:, 1] ** 2))
+    return nearest_index(curve, *point_m.tolist())
 
 
 def _rest(curve: Curve, index: int) -> Curve:

@@ -4,10 +4,10 @@ from math import atan2, cos, sin
 
 import numpy as np
 
+from nav.angles import wrapped
 from nav.messages import Floats
 from nav.parameters import Parameters
 from nav.parameters.states import TunnelParameters
-from nav.planning.angles import wrapped
 from nav.planning.curve import Curve, sampled
 from nav.planning.local_path import clear_distances, path_length, pathpoints
 from nav.planning.speed import set_point

@@ -4,5 +4,5 @@ from math import pi
 
 
 def wrapped(angle_rad: float) -> float:
-    """The same angle in [-pi, pi)."""
-    return (angle_rad + pi) % (2.0 * pi) - pi
+    """The same angle in (-pi, pi]."""
+    return pi - (pi - angle_rad) % (2.0 * pi)
