@@ -59,7 +59,7 @@ def job_of(options: Options) -> Job:
         NavError: the route file is wrong.
     """
     source = _source(options)
-    _check_ablations(options.ablate)
+    _check_ablations(options.ablate, source)
     if options.jobs < 1:
         raise UsageError(f"--jobs {options.jobs}: expected 1 or more")
     _check_folder(options.out)
@@ -102,13 +102,15 @@ def _source(options: Options) -> Source:
     return scenario_source(options.scenario, given)
 
 
-def _check_ablations(names: tuple[str, ...]) -> None:
-    """Loads the twin's sensors only where something is to be taken away."""
+def _check_ablations(names: tuple[str, ...], source: Source) -> None:
+    """Draws a course, to know its vehicle, only where something is to be taken away."""
     if names:
         from scenarios.ablation import disabled_sensors
+        from scenarios.vehicles import VEHICLES
 
+        lidars = VEHICLES[source.course(0).vehicle].lidars
         try:
-            disabled_sensors(names)
+            disabled_sensors(names, lidars)
         except ValueError as error:
             raise UsageError(str(error)) from error
 

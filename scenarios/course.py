@@ -1,5 +1,6 @@
 """A course: all that an episode, a judge and a picture need to know about one drawn world."""
 
+from collections.abc import Mapping
 from dataclasses import dataclass, field
 from typing import Any
 
@@ -57,8 +58,8 @@ class Course:
     crosses the line there."""
     stuck_s: float = 60.0
     """Without a metre of way for this long, the drive is over."""
-    told: dict[str, Any] = field(default_factory=dict)
-    """What the figures of a drive also say, of the course itself; ready for JSON."""
+    facts: Mapping[str, Any] = field(default_factory=dict)
+    """What the scenario says of this draw, for the figures."""
 
 
 def route_points_m(route: Route, anchor: tuple[float, float]) -> Floats:

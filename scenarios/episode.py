@@ -41,9 +41,7 @@ class Episode:
         route = rddf.parse(course.route_text, course.route_name)
         vehicle = VEHICLES[course.vehicle]
         self.navigator = IonNavigator(nav_parameters or parameters_of(course.vehicle), route)
-        self.simulator = vehicle.twin(
-            course.world, seed, disabled_sensors(ablate) & vehicle.sensors
-        )
+        self.simulator = vehicle.twin(course.world, seed, disabled_sensors(ablate, vehicle.lidars))
         path = self.navigator.high_level.route
         self.judge = Judge(course, outline=vehicle.outline, path=path)
         self.digest = Digest()
@@ -93,9 +91,9 @@ class Episode:
         return {
             "scenario": self.course.name,
             "seed": self.seed,
-            **self.course.told,
             "outcome": self.outcome,
             "sim_time_s": round(self.time_s, 3),
             **self.judge.figures(),
+            **self.course.facts,
             "digest": self.digest.hex(),
         }

@@ -6,7 +6,7 @@ from typing import Protocol
 
 from nav.messages import ActuatorTargets, SensorMessage
 from nav.parameters import ION
-from scenarios.ablation import SENSORS
+from scenarios.ablation import LIDARS
 from scenarios.verdicts.shapes import Outline
 from twin.dubins import DubinsSimulator, dubins_parameters
 from twin.simulator import Simulator
@@ -39,17 +39,17 @@ class Vehicle:
     """Builds it from the world, the seed, and the sensors that are silent."""
     outline: Outline
     """What the judge measures clearance from."""
-    sensors: frozenset[str]
-    """Those that an ablation can silence."""
+    height_m: float = 1.98
+    lidars: tuple[str, ...] = LIDARS
+    """The names of its scanners."""
 
 
 DUBINS = "dubins"
 """The point of section 6.5; its obstacles come raw, so the judge expands it to a disc."""
 _DISC = Outline(0.0, 0.0, 0.0, dubins_parameters().drive.disc_radius_m)
-_POINT_SENSORS = frozenset({"lidar_field", "gps", "compass", "odometry"})
 
 VEHICLES = {
-    ION: Vehicle(Simulator, Outline(), frozenset(SENSORS) - {"lidar_field"}),
-    DUBINS: Vehicle(DubinsSimulator, _DISC, _POINT_SENSORS),
+    ION: Vehicle(Simulator, Outline()),
+    DUBINS: Vehicle(DubinsSimulator, _DISC, lidars=("lidar_field",)),
 }
 """By the name that a course gives, which is also that of the navigator's parameter file."""

@@ -67,8 +67,8 @@ def test_a_seed_is_a_field(kind):
 
 
 def test_defaults_are_told():
-    assert build(0).told == {"field": "circles", "density": 80, "feasible": True}
-    assert build(0, "forks").told["density"] == 40
+    assert build(0).facts == {"field": "circles", "density": 80, "feasible": True}
+    assert build(0, "forks").facts["density"] == 40
 
 
 @pytest.mark.parametrize("kind", ["traps", "forks"])
@@ -159,13 +159,13 @@ def test_a_turn_tighter_than_the_plants_is_not_taken():
 
 @pytest.mark.parametrize("density", [80, 160, 240, 400])
 def test_random_fields_are_feasible(density):
-    found = [build(seed, density=density).told["feasible"] for seed in range(40)]
+    found = [build(seed, density=density).facts["feasible"] for seed in range(40)]
     assert np.mean(found) >= 0.97
 
 
 @pytest.mark.parametrize("kind", ["traps", "forks"])
 def test_most_traps_and_forks_have_a_way_out(kind):
-    assert np.mean([build(seed, kind).told["feasible"] for seed in range(30)]) >= 0.9
+    assert np.mean([build(seed, kind).facts["feasible"] for seed in range(30)]) >= 0.9
 
 
 # ---------------------------------------------------------------------- a drive

@@ -64,7 +64,7 @@ def build(seed: int, field: str = "circles", density: int | None = None) -> Cour
         time_limit_s=scenario.time_limit_s,
         vehicle=DUBINS,
         goal_m=GOAL_M,
-        told=_told(field, count, drawn, start),
+        facts=_facts(field, count, drawn, start),
     )
 
 
@@ -73,7 +73,9 @@ def _kind(field: str, count: int) -> str:
     return f"{count} circles" if field == "circles" else f"{field} and {count} circles".capitalize()
 
 
-def _told(kind: str, count: int, field: Field, start: tuple[float, float, float]) -> dict[str, Any]:
+def _facts(
+    kind: str, count: int, field: Field, start: tuple[float, float, float]
+) -> dict[str, Any]:
     x, y = field.way_m[-1].tolist()
     task = Task(start, (x, y), GOAL_M, 0.5 * SIDE_M + BEYOND_M)
     radius_m = dubins_parameters().drive.minimum_radius_m
