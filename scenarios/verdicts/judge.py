@@ -118,7 +118,9 @@ class Judge:
         place = truth.position_m[:2]
         counts = self._keeps_path(truth, decision)
         self.estimated.observe(estimate.position_m, counts)
-        self.true.observe(self.frames.to_route(place[None])[0], counts)
+        if counts:
+            near = self.estimated.index
+            self.true.observe(self.frames.to_route(place[None])[0], counts, near)
         if self.course.tunnel_center_line_m is not None:
             offset_m = line_offset_m(self.course.tunnel_center_line_m, place)
             if offset_m is not None and offset_m < TUNNEL_REACH_M:

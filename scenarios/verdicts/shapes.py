@@ -109,10 +109,15 @@ def _distances(
     (c, s), local = turn, np.empty((CORNERS, 2))
     distance = np.empty(len(radius_m))
     for i in range(len(radius_m)):
-        for k in range(CORNERS):
+        corners = CORNERS if radius_m[i] == 0.0 else 1
+        for k in range(corners):
             dx, dy = corner_m[i, k, 0] - center[0], corner_m[i, k, 1] - center[1]
             local[k, 0], local[k, 1] = c * dx + s * dy, c * dy - s * dx
-        gap = _rectangle_to_polygon(size[0], size[1], local)
+        if corners > 1:
+            gap = _rectangle_to_polygon(size[0], size[1], local)
+        else:  # an axis: quicker, and the same
+            x, y = abs(local[0, 0]) - size[0], abs(local[0, 1]) - size[1]
+            gap = math.sqrt(max(x, 0.0) ** 2 + max(y, 0.0) ** 2)
         distance[i] = max(gap - size[2] - radius_m[i], 0.0)
     return distance
 

@@ -13,7 +13,7 @@ from twin.dubins.parameters import DriveParameters
 from twin.truth import Applied
 
 PARKED = Applied(0.0, 0.0, 1.0, int(Gear.HIGH), False)
-DIRECTION = {Gear.REVERSE: -1.0, Gear.NEUTRAL: 0.0, Gear.LOW: 1.0, Gear.HIGH: 1.0}
+DIRECTION: dict[int, float] = {Gear.REVERSE: -1.0, Gear.NEUTRAL: 0.0, Gear.LOW: 1.0, Gear.HIGH: 1.0}
 """Of the drive; a linkage on its way is in neutral."""
 
 
@@ -52,7 +52,7 @@ class IdealDrive:
         braking = self.applied.brake * self.parameters.brake_mps2
         if braking > 0.0:
             return _braked(state, braking, curvature, dt_s)
-        drive = DIRECTION[Gear(self.applied.gear)] * self.applied.throttle
+        drive = DIRECTION[self.applied.gear] * self.applied.throttle
         return advance(state, drive * self.parameters.throttle_mps2, curvature, dt_s)
 
     def curvature_per_m(self) -> float:

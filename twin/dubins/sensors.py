@@ -64,7 +64,7 @@ class FieldScan:
         fan = (-p.half_fan_rad, self._step_rad, p.beams)
         true_m = ranges_m(self._circles, state[:3], *fan, p.max_range_m)
         error_m = self._bias_m + p.noise_sd_m * self._rng.standard_normal(p.beams)
-        counts = np.clip(np.rint((true_m + error_m) / LIDAR_COUNT_M), 0, LIDAR_NO_RETURN_COUNT - 1)
+        counts = np.rint(np.maximum(true_m + error_m, 0.0) / LIDAR_COUNT_M)
         counts[true_m >= p.max_range_m] = LIDAR_NO_RETURN_COUNT
         return LidarScan(time_ns, self.name, lidar_range_m(counts.astype(np.uint16)))
 
