@@ -38,4 +38,5 @@ bench: .venv/.base
 	$(BIN)/python tests/bench_raycast.py
 	$(BIN)/python tests/bench_physics.py
 	$(BIN)/python tests/bench_episode.py
+	$(BIN)/python tests/bench_random_field.py
 	$(BIN)/ion drive nqe --seeds 0-19 --jobs 2 --out runs/bench --json

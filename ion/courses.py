@@ -1,10 +1,11 @@
 """From a scenario's name, or a route file, to what a seed draws of it."""
 
+from collections.abc import Mapping
 from dataclasses import dataclass
 from importlib import import_module
 from importlib.resources import files
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 from ion.errors import UsageError
 
@@ -23,13 +24,23 @@ class Source:
     first: int = 0
     """Waypoint number where the stretch of the route begins."""
     last: int = 0
+    options: tuple[tuple[str, Any], ...] = ()
+    """What the scenario was told beyond the seed: names and values."""
+
+    @property
+    def title(self) -> str:
+        """For tables."""
+        return self.scenario or f"{Path(self.route_name).stem}_{self.first}-{self.last}"
 
     @property
     def name(self) -> str:
-        """For files and tables."""
-        if self.scenario:
-            return self.scenario
-        return f"{Path(self.route_name).stem}_{self.first}-{self.last}"
+        """For files: two drives of different options have different ones."""
+        return "_".join((self.title, *(str(value) for _, value in self.options)))
+
+    @property
+    def said(self) -> dict[str, str]:
+        """The options, as short texts."""
+        return {name: str(value) for name, value in self.options}
 
     def course(self, seed: int) -> "Course":
         """The course as `seed` draws it.
@@ -38,7 +49,8 @@ class Source:
             NavError: the route cannot be driven.
         """
         if self.scenario:
-            return import_module(f"scenarios.{self.scenario}.course").build(seed)
+            course = import_module(f"scenarios.{self.scenario}.course")
+            return course.build(seed, **dict(self.options))
         from scenarios.route import build
 
         return build(self.route_text, self.route_name, self.first, self.last, seed)
@@ -50,15 +62,23 @@ def scenario_names() -> list[str]:
     return sorted(f.name for f in folders if f.is_dir() and (f / "scenario.toml").is_file())
 
 
-def scenario_source(name: str) -> Source:
-    """A scenario by its name.
+def scenario_source(name: str, options: Mapping[str, Any] | None = None) -> Source:
+    """A scenario by its name, with options of its own.
 
     Raises:
-        UsageError: there is none of this name; lists those that exist.
+        UsageError: there is none of this name; lists those that exist. Or an option that it does
+            not take, or a value that it does not allow.
     """
+    from scenarios.scenario import check_options
+
     if name not in scenario_names():
         raise UsageError(f"scenario {name!r} is unknown; there are: {', '.join(scenario_names())}")
-    return Source(name)
+    given = dict(options or {})
+    try:
+        check_options(name, given)
+    except ValueError as error:
+        raise UsageError(str(error)) from error
+    return Source(name, options=tuple(given.items()))
 
 
 def route_source(path: Path, first: int | None, last: int | None) -> Source:

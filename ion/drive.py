@@ -28,7 +28,7 @@ def drive(options: Options) -> int:
 
 
 def _one(job: Job, seed: int, json: bool) -> int:
-    with Bar(f"{job.source.name} {seed}") as bar:
+    with Bar(f"{job.source.title} {seed}") as bar:
         result = job.drive(seed, [bar])
     if json:
         print(as_json(result))
@@ -42,10 +42,10 @@ def _one(job: Job, seed: int, json: bool) -> int:
 def _many(job: Job, seeds: list[int], options: Options) -> int:
     started, results = time.perf_counter(), list[dict[str, Any]]()
     for result in many(job.drive_in_worker, seeds, options.jobs):
-        results.append({"scenario": job.source.name} | result)
+        results.append({"scenario": job.source.title} | result)
         print(as_json(results[-1]) if options.json else line(result), flush=True)
         print(f"{len(results)} of {len(seeds)} episodes", file=sys.stderr)
-    counts = {"scenario": job.source.name} | summary(results, time.perf_counter() - started)
+    counts = {"scenario": job.source.title} | summary(results, time.perf_counter() - started)
     print(as_json(counts) if options.json else _told(counts))
     return _code(results)
 

@@ -15,6 +15,7 @@ if TYPE_CHECKING:
     from ion.trace import Trace
     from scenarios.course import Course
     from scenarios.episode import Episode
+    from tape.held_back import HeldBack
     from tape.writer import TapeWriter
 
 
@@ -41,10 +42,13 @@ class Job:
 
         course, trace, tape = self.source.course(seed), Trace(), self.path(seed, ".mcap")
         episode = Episode(course, seed, self.ablate)
-        with self._writer(course, seed, tape) as writer:
+        with self._tape(course, seed, tape) as writer:
             figures = run(episode, writer, [*watches, trace])
-        figures |= {"scenario": self.source.name, "ablate": list(self.ablate)}
-        if self.failures_only and figures["outcome"] == "finished":
+            wanted = not self.failures_only or figures["outcome"] != "finished"
+            if wanted:
+                writer.keep()
+        figures |= {"scenario": self.source.title, "ablate": list(self.ablate)}
+        if not wanted:
             tape.unlink(missing_ok=True)
             return figures | {"log": None, "map": None}
         log = None if self.log == "off" else str(tape)
@@ -59,12 +63,19 @@ class Job:
         name = "_".join((self.source.name, *self.ablate, f"seed{seed}"))
         return self.out / f"{name}{suffix}"
 
+    def _tape(self, course: "Course", seed: int, path: Path) -> "HeldBack":
+        """The tape of a drive; one that may not be wanted waits in memory."""
+        from tape.held_back import MOST, HeldBack
+
+        most = MOST if self.failures_only else 0
+        return HeldBack(lambda: self._writer(course, seed, path), most)
+
     def _writer(self, course: "Course", seed: int, path: Path) -> "TapeWriter":
         from scenarios.parameter_files import parameter_texts
         from tape.writer import TapeWriter
 
-        said = {"scenario": self.source.name, "seed": str(seed), "ablate": " ".join(self.ablate)}
-        said["vehicle"] = course.vehicle
+        said = {"scenario": self.source.title, "seed": str(seed), "ablate": " ".join(self.ablate)}
+        said |= {"vehicle": course.vehicle, **self.source.said}
         attached = {course.route_name: course.route_text, **parameter_texts(course.vehicle)}
         if self.source.scenario:
             folder = files("scenarios") / self.source.scenario
@@ -87,15 +98,15 @@ def _stop_when_asked(episode: "Episode", records: object) -> None:
 
 
 def _view(vehicle: str) -> Any:
-    """Draws `/view/`, knowing a vehicle's size and where its scanners sit."""
-    from nav.parameters import parameters_from
-    from scenarios.parameter_files import parameter_texts
+    """Draws `/view/`, knowing a vehicle's box and where its scanners sit."""
+    from scenarios.parameter_files import parameters_of
     from scenarios.vehicles import VEHICLES
     from tape.view import View
 
-    mounts = parameters_from(parameter_texts(vehicle), vehicle).vehicle.lidar_mounts
-    front, rear, half_width = VEHICLES[vehicle].outline
-    return View(mounts, (front, rear, half_width, VEHICLES[vehicle].height_m))
+    known = parameters_of(vehicle).vehicle
+    box = known.outline
+    size = (box.front_m, box.rear_m, box.half_width_m, VEHICLES[vehicle].height_m)
+    return View(known.lidar_mounts, size)
 
 
 def _title(course: str, seed: int, figures: dict[str, Any]) -> str:

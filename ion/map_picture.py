@@ -102,8 +102,8 @@ def _draw_detail(axes: Axes, scene: Scene, name: str, pose: Pose | None) -> None
         return
     axes.axis("on")
     draw_scene(axes, scene, detail=True)
-    corners = np.array(scene.outline.corners_m(pose))
-    axes.fill(*corners.T, facecolor="none", edgecolor=INK, linewidth=1.4, zorder=9)
+    border = np.array(scene.outline.border_m(pose))
+    axes.fill(*border.T, facecolor="none", edgecolor=INK, linewidth=1.4, zorder=9)
     x, y, _ = pose
     across, up = (scene.length_m * lengths for lengths in DETAIL_LENGTHS)
     box = (x - across, x + across, y - up, y + up)

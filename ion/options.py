@@ -14,6 +14,8 @@ from ion.job import Job
 
 Log = Literal["full", "inputs", "light", "off"]
 MAX_SEED = 2**32 - 1
+SCENARIO_OPTIONS = ("field", "density")
+"""Options that only some scenarios take: those of their `scenario.toml`."""
 
 
 @dataclass(frozen=True)
@@ -43,6 +45,10 @@ class Options:
     """With --route: number of the waypoint to begin at."""
     last: Annotated[int | None, arg(name="to", metavar="WAYPOINT")] = None
     """With --route: number of the waypoint to end at."""
+    density: Annotated[int | None, arg(metavar="N")] = None
+    """Of random_field: how many circles lie about. Default: 80, beside traps and forks 40."""
+    field: Annotated[str | None, arg(metavar="circles|traps|forks")] = None
+    """Of random_field: what is drawn. Default: circles."""
 
 
 def job_of(options: Options) -> Job:
@@ -80,16 +86,20 @@ def seeds_of(options: Options) -> list[int]:
 
 
 def _source(options: Options) -> Source:
+    asked = {name: getattr(options, name) for name in SCENARIO_OPTIONS}
+    given = {name: value for name, value in asked.items() if value is not None}
     if options.route is not None:
         if options.scenario is not None:
             raise UsageError(f"{options.scenario!r} and --route: expected one of them")
+        if given:
+            raise UsageError(f"--{next(iter(given))}: expected a scenario with it, not --route")
         return route_source(options.route, options.first, options.last)
     if options.first is not None or options.last is not None:
         raise UsageError("--from and --to: expected --route FILE with them")
     if options.scenario is None:
         there_are = ", ".join(scenario_names())
         raise UsageError(f"expected a scenario or --route FILE; scenarios: {there_are}")
-    return scenario_source(options.scenario)
+    return scenario_source(options.scenario, given)
 
 
 def _check_ablations(names: tuple[str, ...], source: Source) -> None:

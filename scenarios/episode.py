@@ -4,11 +4,11 @@ from typing import Any
 
 from nav.messages import ActuatorTargets, Decision, EgoEstimate, Gear, Message
 from nav.navigator import IonNavigator
-from nav.parameters import Parameters, parameters_from
+from nav.parameters import Parameters
 from nav.route import rddf
 from scenarios.ablation import disabled_sensors
 from scenarios.course import Course
-from scenarios.parameter_files import parameter_texts
+from scenarios.parameter_files import parameters_of
 from scenarios.vehicles import VEHICLES
 from scenarios.verdicts import Judge
 from tape.digest import Digest
@@ -40,11 +40,10 @@ class Episode:
         self.course, self.seed, self.ablate = course, seed, ablate
         route = rddf.parse(course.route_text, course.route_name)
         vehicle = VEHICLES[course.vehicle]
-        texts = parameter_texts(course.vehicle)
-        chosen = nav_parameters or parameters_from(texts, course.vehicle)
-        self.navigator = IonNavigator(chosen, route)
+        self.navigator = IonNavigator(nav_parameters or parameters_of(course.vehicle), route)
         self.simulator = vehicle.twin(course.world, seed, disabled_sensors(ablate, vehicle.lidars))
-        self.judge = Judge(course, outline=vehicle.outline)
+        path = self.navigator.high_level.route
+        self.judge = Judge(course, outline=vehicle.outline, path=path)
         self.digest = Digest()
         self.truth: Truth = self.simulator.truth()
         self.targets = ActuatorTargets(0, 0.0, 0.0, 1.0, Gear.HIGH)

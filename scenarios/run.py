@@ -2,14 +2,22 @@
 
 import time
 from collections.abc import Callable, Sequence
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, Protocol
 
 from scenarios.interrupts import interrupts
 
 if TYPE_CHECKING:
     from scenarios.episode import Episode
     from tape.record import Record
-    from tape.writer import TapeWriter
+
+
+class Tape(Protocol):
+    """What takes records: `tape.writer.TapeWriter`, `tape.held_back.HeldBack`."""
+
+    def write(self, record: "Record") -> None:
+        """Take the next record."""
+        ...
+
 
 Watch = Callable[["Episode", Sequence["Record"]], None]
 """Is shown the episode and what it recorded after every tick; returns nothing, may raise
@@ -17,7 +25,7 @@ Watch = Callable[["Episode", Sequence["Record"]], None]
 
 
 def run(
-    episode: "Episode", writer: "TapeWriter | None" = None, watches: Sequence[Watch] = ()
+    episode: "Episode", writer: Tape | None = None, watches: Sequence[Watch] = ()
 ) -> dict[str, Any]:
     """Drive to the end; Ctrl-C ends the drive between two ticks with the outcome `interrupted`.
 
@@ -40,7 +48,7 @@ def run(
     return episode.figures() | {"wall_time_s": wall_s, "real_time_factor": factor}
 
 
-def _tick(episode: "Episode", writer: "TapeWriter | None", watches: Sequence[Watch]) -> None:
+def _tick(episode: "Episode", writer: Tape | None, watches: Sequence[Watch]) -> None:
     records = episode.tick()
     if writer:
         for item in records:

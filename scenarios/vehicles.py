@@ -9,6 +9,7 @@ from nav.parameters import ION
 from scenarios.ablation import LIDARS
 from scenarios.verdicts.shapes import Outline
 from twin import pioneer
+from twin.dubins import DubinsSimulator, dubins_parameters
 from twin.simulator import Simulator
 from twin.truth import Truth
 from twin.world import World
@@ -44,8 +45,13 @@ class Vehicle:
     """The names of its scanners."""
 
 
+DUBINS = "dubins"
+"""The point of section 6.5; its obstacles come raw, so the judge expands it to a disc."""
+_DISC = Outline(0.0, 0.0, 0.0, dubins_parameters().drive.disc_radius_m)
+
 VEHICLES = {
     ION: Vehicle(Simulator, Outline()),
+    DUBINS: Vehicle(DubinsSimulator, _DISC, lidars=("lidar_field",)),
     "pioneer": Vehicle(pioneer.simulator, Outline(0.254, -0.254, 0.2485), 0.46, ("lidar_deck",)),
 }
 """By the name that a course gives, which is also that of the navigator's parameter file."""

@@ -13,9 +13,10 @@ from nav.route import rddf
 from scenarios.course import Course, Floats, Gate, route_points_m
 from scenarios.geometry import Leg as Line
 from scenarios.nqe import track
-from scenarios.nqe.layout import Layout, Thing, load_layout, load_scenario
+from scenarios.nqe.layout import Layout, Thing, load_layout
 from scenarios.nqe.placing import PLACE, Draw, gate
 from scenarios.nqe.tunnel import tunnel
+from scenarios.scenario import load_scenario
 from scenarios.things import generator
 from twin.terrain import Banks, RollingGround
 from twin.world import Obstacle, World
@@ -42,7 +43,7 @@ class _Built:
 
 def build(seed: int) -> Course:
     """The course as `seed` draws it."""
-    layout, scenario = load_layout(), load_scenario()
+    layout, scenario = load_layout(), load_scenario("nqe")
     lines = track.lines(layout, _datum(seed))
     ground = RollingGround(seed, features=_banks(seed, layout, lines))
     built = _build_things(seed, layout, lines, ground)

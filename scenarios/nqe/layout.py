@@ -47,23 +47,7 @@ class Layout(msgspec.Struct, forbid_unknown_fields=True, frozen=True):
     legs: list[Leg]
 
 
-class Scenario(msgspec.Struct, forbid_unknown_fields=True, frozen=True):
-    """`scenario.toml`."""
-
-    title: str
-    course: str
-    time_limit_s: float
-
-
 def load_layout() -> Layout:
     """The layout that belongs to this package."""
-    return msgspec.toml.decode(_read("layout.toml"), type=Layout)
-
-
-def load_scenario() -> Scenario:
-    """The scenario that belongs to this package."""
-    return msgspec.toml.decode(_read("scenario.toml"), type=Scenario)
-
-
-def _read(name: str) -> str:
-    return (resources.files("scenarios.nqe") / name).read_text(encoding="utf-8")
+    text = (resources.files("scenarios.nqe") / "layout.toml").read_text(encoding="utf-8")
+    return msgspec.toml.decode(text, type=Layout)

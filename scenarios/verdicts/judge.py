@@ -8,6 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from nav.messages import Decision, EgoEstimate
+from nav.route.smooth_path import SmoothPath
 from nav.route.waypoints import Waypoints
 from scenarios.course import Course
 from scenarios.verdicts.clearance import Clearance, in_the_way
@@ -65,6 +66,8 @@ class Judge:
     """Whether leaving the corridor ends the drive."""
     outcome: str | None = None
     outline: Outline = field(default_factory=Outline)
+    path: SmoothPath | None = None
+    """The smooth path of the course's route, where one has it already: it takes a while."""
     pose: Pose | None = None
     """The last that was seen."""
 
@@ -78,7 +81,7 @@ class Judge:
         self.gates = GateKeeper(course.gates, self.outline)
         self.contacts = Contacts(frozenset(o for o, kind in owners.items() if kind in SOFT))
         self.clearance = Clearance(in_the_way(course.world), self.outline)
-        path = route_path(course)
+        path = self.path or route_path(course)
         self.frames = frames(course)
         self.estimated, self.true, self.tunnel = CrossTrack(path), CrossTrack(path), Deviation()
         self._state_ticks: dict[str, int] = {}
@@ -115,7 +118,9 @@ class Judge:
         place = truth.position_m[:2]
         counts = self._keeps_path(truth, decision)
         self.estimated.observe(estimate.position_m, counts)
-        self.true.observe(self.frames.to_route(place[None])[0], counts)
+        if counts:
+            near = self.estimated.index
+            self.true.observe(self.frames.to_route(place[None])[0], counts, near)
         if self.course.tunnel_center_line_m is not None:
             offset_m = line_offset_m(self.course.tunnel_center_line_m, place)
             if offset_m is not None and offset_m < TUNNEL_REACH_M:

@@ -26,6 +26,8 @@ class Outline(NamedTuple):
     front_m: float = 2.10
     rear_m: float = -0.95
     half_width_m: float = 0.762
+    radius_m: float = 0.0
+    """All points this near to the rectangle belong to it too: a disc is a point with a radius."""
 
     @property
     def middle_m(self) -> float:
@@ -35,14 +37,25 @@ class Outline(NamedTuple):
     def nose_m(self, pose: Pose) -> tuple[float, float]:
         """The middle of the bumper in the world."""
         x, y, heading = pose
-        return x + self.front_m * math.cos(heading), y + self.front_m * math.sin(heading)
+        front = self.front_m + self.radius_m
+        return x + front * math.cos(heading), y + front * math.sin(heading)
 
     def corners_m(self, pose: Pose) -> list[tuple[float, float]]:
-        """The four corners in the world, in order around the outline."""
+        """The four corners of the rectangle in the world, in order around it."""
         x, y, heading = pose
         c, s, w = math.cos(heading), math.sin(heading), self.half_width_m
         local = ((self.front_m, -w), (self.front_m, w), (self.rear_m, w), (self.rear_m, -w))
         return [(x + c * u - s * v, y + s * u + c * v) for u, v in local]
+
+    def border_m(self, pose: Pose) -> list[tuple[float, float]]:
+        """The whole outline in the world, for pictures: its corners, rounded by the radius."""
+        if self.radius_m == 0.0:
+            return self.corners_m(pose)
+        return [
+            (x + self.radius_m * math.cos(angle), y + self.radius_m * math.sin(angle))
+            for k, (x, y) in enumerate(self.corners_m(pose))
+            for angle in (pose[2] + math.pi * (k - 1 + part / 8) / 2 for part in range(9))
+        ]
 
 
 class Footprints(NamedTuple):
@@ -82,23 +95,30 @@ def distances_m(outline: Outline, pose: Pose, shapes: Footprints) -> Floats:
     c, s = math.cos(heading), math.sin(heading)
     middle, half_length_m = outline.middle_m, 0.5 * (outline.front_m - outline.rear_m)
     center = (x + c * middle, y + s * middle)
-    return _distances((half_length_m, outline.half_width_m), center, (c, s), *shapes)
+    size = (half_length_m, outline.half_width_m, outline.radius_m)
+    return _distances(size, center, (c, s), *shapes)
 
 
 @njit(cache=True)
 def _distances(
-    half: tuple[float, float], center: tuple[float, float], turn: tuple[float, float],
+    size: tuple[float, float, float], center: tuple[float, float], turn: tuple[float, float],
     corner_m: Floats, radius_m: Floats,
 ) -> Floats:  # fmt: skip
-    """From a rectangle at `center`, whose x axis is along `turn`, to each shape."""
+    """From a rectangle at `center`, whose x axis is along `turn`, to each shape; `size` has its
+    half length, its half width, and the radius around it."""
     (c, s), local = turn, np.empty((CORNERS, 2))
     distance = np.empty(len(radius_m))
     for i in range(len(radius_m)):
-        for k in range(CORNERS):
+        corners = CORNERS if radius_m[i] == 0.0 else 1
+        for k in range(corners):
             dx, dy = corner_m[i, k, 0] - center[0], corner_m[i, k, 1] - center[1]
             local[k, 0], local[k, 1] = c * dx + s * dy, c * dy - s * dx
-        gap = _rectangle_to_polygon(half[0], half[1], local)
-        distance[i] = max(gap - radius_m[i], 0.0)
+        if corners > 1:
+            gap = _rectangle_to_polygon(size[0], size[1], local)
+        else:  # an axis: quicker, and the same
+            x, y = abs(local[0, 0]) - size[0], abs(local[0, 1]) - size[1]
+            gap = math.sqrt(max(x, 0.0) ** 2 + max(y, 0.0) ** 2)
+        distance[i] = max(gap - size[2] - radius_m[i], 0.0)
     return distance
 
 

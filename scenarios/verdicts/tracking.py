@@ -69,12 +69,14 @@ class CrossTrack:
 
     path: SmoothPath
     deviation: Deviation = field(default_factory=Deviation)
-    _index: int = 0
+    index: int = 0
+    """Of the path's sample nearest to the last point."""
 
-    def observe(self, route_m: Floats, counts: bool) -> None:
-        """Take a point (2,) in frame N, and whether its offset counts; all points are asked for,
-        because each is searched near the last."""
-        self._index, cross_track_m, _ = project(self.path, route_m, self._index)
+    def observe(self, route_m: Floats, counts: bool, near: int | None = None) -> None:
+        """Take a point (2,) in frame N, and whether its offset counts. All points are asked for,
+        because each is searched near the last; unless one says which sample is `near`."""
+        near = self.index if near is None else near
+        self.index, cross_track_m, _ = project(self.path, route_m, near)
         if counts:
             self.deviation.add(cross_track_m)
 
