@@ -28,8 +28,12 @@ class Curve:
 
 
 def curve_through(points_m: Floats) -> Curve:
-    """The curve (6.1) with coefficients (6.4) through `points_m`, shape (n, 2)."""
-    position, tangent, second = catmull_rom(points_m, SAMPLES)
+    """The curve (6.1) with coefficients (6.4) through evenly spaced `points_m`, shape (n, 2).
+
+    Its ends are bent like their neighbourhood: a path that is made anew at every decision is
+    followed by its first metre only.
+    """
+    position, tangent, second = catmull_rom(points_m, SAMPLES, bent=True)
     speed = np.maximum(np.hypot(tangent[:, 0], tangent[:, 1]), 1e-6)
     bend = (tangent[:, 0] * second[:, 1] - tangent[:, 1] * second[:, 0]) / speed**3
     heading = _directions(tangent)

@@ -15,6 +15,9 @@ from nav.route.corridor import foot
 from nav.route.geodesy import Floats
 from nav.route.waypoints import Waypoints
 
+SETTLED_M = 1e-4
+"""Where no point moves farther than this in a step, none is worth making."""
+
 
 @dataclass(frozen=True)
 class Rounding:
@@ -29,6 +32,7 @@ class Rounding:
     reach_m: float = 24.0
     """How far from a corner points may move, along the route."""
     steps: int = 300
+    """At most."""
     give: float = 0.6
     """Share of a correction that the neighbours take the other way, 0 to 1."""
 
@@ -109,8 +113,11 @@ def _relax(
         move[1:] -= 0.25 * rounding.give * excess[:-1]
         move[:-1] -= 0.25 * rounding.give * excess[1:]
         move[still] = 0.0
+        before = points.copy()
         points[1:-1] += move
         points = _held(points, segment, waypoints, rounding.clearance_m)
+        if np.abs(points - before).max() < SETTLED_M:
+            break
     return points
 
 

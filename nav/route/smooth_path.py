@@ -74,23 +74,31 @@ def smooth_path(waypoints: Waypoints, rounding: Rounding | None = None) -> Smoot
     return SmoothPath(position, heading, bend, arc_of(position), segment, limit)
 
 
-def catmull_rom(points: Floats, steps: int) -> tuple[Floats, Floats, Floats]:
+def catmull_rom(points: Floats, steps: int, bent: bool = False) -> tuple[Floats, Floats, Floats]:
     """Equations (6.1), (6.2), (6.4) over all points, `steps` samples between neighbours.
 
     Args:
         points: shape (n, 2); one more point is extrapolated before the first, after the last.
         steps: samples a piece, at s = 0, 1 / steps, ...; the very last point is added.
+        bent: extrapolate with the bend that the outermost three points have, not straight on. For
+            points that are evenly spaced, at least three.
 
     Returns:
         P(s), its first and its second derivative in s, each of shape ((n - 1) steps + 1, 2).
     """
-    P = np.concatenate([[2 * points[0] - points[1]], points, [2 * points[-1] - points[-2]]])
+    first, last = (_beyond(end, bent) for end in (points[:3], points[:-4:-1]))
+    P = np.concatenate([[first], points, [last]])
     window = np.stack([P[:-3], P[1:-2], P[2:-1], P[3:]])  # (4, n - 1, 2)
     curves: list[Floats] = []
     for row, end in _weights(steps):
         inner = np.einsum("as,aic->isc", row, window).reshape(-1, 2)
         curves.append(np.concatenate([inner, np.einsum("as,ac->sc", end, window[:, -1])]))
     return curves[0], curves[1], curves[2]
+
+
+def _beyond(end: Floats, bent: bool) -> Floats:
+    """The point before the first of `end`."""
+    return 3 * end[0] - 3 * end[1] + end[2] if bent else 2 * end[0] - end[1]
 
 
 @lru_cache(maxsize=8)
