@@ -12,7 +12,7 @@ from typing import Any
 
 import numpy as np
 
-from nav.messages import Floats, LidarScan, SensorMessage
+from nav.messages import Floats, LidarScan, SensorMessage, device
 
 FUTURE_NS = 50_000_000
 """A message may be this much ahead of the call's time (clocks of the truck's devices)."""
@@ -33,10 +33,6 @@ def _finite(message: SensorMessage) -> bool:
     return True
 
 
-def _source(message: SensorMessage) -> str:
-    return message.sensor if isinstance(message, LidarScan) else type(message).__name__
-
-
 @dataclass
 class Admission:
     """Drops messages that are not finite, too old, from the future, backward in time, or of a
@@ -46,6 +42,7 @@ class Admission:
     scanners: tuple[str, ...]
     """Names of the vehicle's LIDARs."""
     newest_ns: dict[str, int] = field(default_factory=dict[str, int])
+    """Time of the newest good message of each device."""
     dropped: dict[str, int] = field(default_factory=dict[str, int])
     """Count for each reason."""
 
@@ -54,7 +51,7 @@ class Admission:
         return [message for message in messages if self._passes(now_ns, message)]
 
     def _passes(self, now_ns: int, message: SensorMessage) -> bool:
-        source = _source(message)
+        source = device(message)
         if reason := self._fault(now_ns, message, source):
             self.dropped[reason] = self.dropped.get(reason, 0) + 1
             return False

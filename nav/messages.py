@@ -148,6 +148,33 @@ class VehicleState(_Message):
     """True while the linkage is on its way."""
 
 
+@dataclass(frozen=True, eq=False)
+class RadarTracks(_Message):
+    """Tracks of an Eaton VORAD EVT-300 at 15 Hz: at most seven, in its own plane."""
+
+    time_ns: int
+    range_m: Floats
+    """Shape (n,), [m]."""
+    azimuth_rad: Floats
+    """Shape (n,), left positive."""
+    range_rate_mps: Floats
+    """Shape (n,), negative for what comes nearer."""
+
+
+@dataclass(frozen=True, eq=False)
+class RoadEstimate(_Message):
+    """What the image-processing module says of the road ahead, at 10 Hz."""
+
+    time_ns: int
+    offset_m: float
+    """How far left of the road's middle the reference point is."""
+    heading_rad: float
+    """Direction of the road relative to the vehicle's x axis, left positive."""
+    width_m: float
+    confidence: float
+    """0 to 1."""
+
+
 # ---------------------------------------------------------------- commands, out of the navigator
 
 
@@ -173,15 +200,36 @@ class FollowPath(_Message):
     pathpoint_m: Floats
     """Shape (10, 2), route frame N, [m]."""
     speed_mps: float
+    least_throttle: float = 0.0
+    """While the vehicle hardly moves the throttle is at least this: the watchdog's way out."""
+
+
+@dataclass(frozen=True, eq=False)
+class UnitOperation(_Message):
+    """A command of the high-level controller: one robotic unit operation, an arc in one gear."""
+
+    time_ns: int
+    gear: Gear
+    """Shifted to at a stand, however long it takes; then steered, then driven."""
+    steering_rad: float
+    """Road-wheel angle, left positive."""
+    remaining_m: float
+    """Way that is still to go, [m]; at 0 the vehicle stands."""
+    speed_mps: float
+
+
+STOP, RESET = "stop_and_wait", "reset_sensor"
 
 
 @dataclass(frozen=True, eq=False)
 class DirectCommand(_Message):
-    """A direct command of the high-level controller to the low-level one."""
+    """A direct command of the high-level controller; the vehicle stands while it holds."""
 
     time_ns: int
     name: str
-    """`stop_and_wait`."""
+    """STOP or RESET."""
+    sensor: str = ""
+    """Which one is to be reset."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -242,14 +290,30 @@ class ObstacleCells(_Message):
     """Shape (n,), 0 to 1."""
 
 
-SensorMessage = LidarScan | SonarScan | GpsFix | ImuSample | CompassHeading | VehicleState
-Report = FollowPath | DirectCommand | EgoEstimate | Decision | ObstacleCells
+DEVICES: dict[type[Any], str] = {
+    SonarScan: "sonar", RadarTracks: "radar", GpsFix: "gps", ImuSample: "imu",
+    CompassHeading: "compass", RoadEstimate: "road_camera", VehicleState: "odometry",
+}  # fmt: skip
+"""What each kind of sensor message comes from; a scan names its scanner itself."""
+
+SensorMessage = (
+    LidarScan | SonarScan | RadarTracks | GpsFix | ImuSample | CompassHeading | RoadEstimate
+    | VehicleState
+)  # fmt: skip
+Command = FollowPath | UnitOperation | DirectCommand
+Report = Command | EgoEstimate | Decision | ObstacleCells
 Message = SensorMessage | ActuatorTargets | Report
 
 MESSAGE_TYPES: tuple[type[Any], ...] = (
-    LidarScan, SonarScan, GpsFix, ImuSample, CompassHeading, VehicleState,
-    ActuatorTargets, FollowPath, DirectCommand, EgoEstimate, Decision, ObstacleCells,
+    LidarScan, SonarScan, RadarTracks, GpsFix, ImuSample, CompassHeading, RoadEstimate,
+    VehicleState, ActuatorTargets, FollowPath, UnitOperation, DirectCommand, EgoEstimate, Decision,
+    ObstacleCells,
 )  # fmt: skip
+
+
+def device(message: SensorMessage) -> str:
+    """The name of the device that a message comes from, as resets and ablations call it."""
+    return message.sensor if isinstance(message, LidarScan) else DEVICES[type(message)]
 
 
 class Outputs(NamedTuple):

@@ -56,7 +56,7 @@ class Course:
     goal_m: float | None = None
     """Finished when the reference point is this near to the last waypoint; None: when the nose
     crosses the line there."""
-    stuck_s: float = 60.0
+    stuck_s: float = 240.0
     """Without a metre of way for this long, the drive is over."""
     facts: Mapping[str, Any] = field(default_factory=dict)
     """What the scenario says of this draw, for the figures."""

@@ -2,7 +2,7 @@
 
 from typing import Any
 
-from nav.messages import ActuatorTargets, Decision, EgoEstimate, Gear, Message
+from nav.messages import RESET, ActuatorTargets, Decision, DirectCommand, EgoEstimate, Gear, Message
 from nav.navigator import IonNavigator
 from nav.parameters import Parameters
 from nav.route import rddf
@@ -85,6 +85,8 @@ class Episode:
             self.estimate = report
         elif isinstance(report, Decision):
             self.decision = report
+        elif isinstance(report, DirectCommand) and report.name == RESET:
+            self.simulator.reset(report.sensor)
 
     def figures(self) -> dict[str, Any]:
         """What the judge measured, and the digest."""

@@ -27,6 +27,10 @@ class Twin(Protocol):
         """Drive for 20 ms under `targets`; the messages delivered meanwhile, in their order."""
         ...
 
+    def reset(self, sensor: str) -> None:
+        """The navigator resets a sensor."""
+        ...
+
     def truth(self) -> Truth:
         """The true state, for judges and pictures only."""
         ...

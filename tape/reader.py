@@ -62,6 +62,19 @@ def metadata(path: Path) -> dict[str, str]:
     return {}
 
 
+def span_ns(path: Path) -> tuple[int, int]:
+    """First and last time of delivery; found without unpacking a message.
+
+    Raises:
+        TapeError: as `read`; or nothing is on it.
+    """
+    chunks = [item for item in _items(path, chunks=True) if isinstance(item, Chunk)]
+    ends = [(c.message_start_time, c.message_end_time) for c in chunks if c.message_end_time]
+    if not ends:
+        raise TapeError(f"{path}: an empty tape; expected one with messages")
+    return min(start for start, _ in ends), max(end for _, end in ends)
+
+
 def _kind(path: Path, topic: str, name: str) -> Any:
     if name not in _KINDS:
         known = ", ".join(_KINDS)

@@ -1,10 +1,18 @@
 """The navigator never sees the simulator's truth: all that it hears is measured, with errors."""
 
-from dataclasses import fields
+from dataclasses import fields, replace
 
 import numpy as np
 
-from nav.messages import ActuatorTargets, Floats, Gear, GpsFix, LidarScan, SensorMessage
+from nav.messages import (
+    ActuatorTargets,
+    Floats,
+    Gear,
+    GpsFix,
+    GpsQuality,
+    LidarScan,
+    SensorMessage,
+)
 from scenarios.episode import Episode
 from scenarios.nqe import build
 from scenarios.route.course import build as build_route
@@ -64,13 +72,18 @@ def test_gps_outage_in_the_open_never_enters_tunnel_mode():
     course = build_route("\n".join(rows), "straight.rddf", None, None, 5)
     episode = Episode(course, 5)
     advance = episode.simulator.advance
+
+    def lost(fix):
+        return replace(fix, quality=GpsQuality.NONE)
+
     outage = range(400, 10_000)
     states = set()
     tick = 0
 
     def advance_without_gps(targets):
-        kept = advance(targets)
-        return [m for m in kept if not (tick in outage and isinstance(m, GpsFix))]
+        """A receiver without a solution goes on speaking."""
+        heard = advance(targets)
+        return [lost(m) if tick in outage and isinstance(m, GpsFix) else m for m in heard]
 
     episode.simulator.advance = advance_without_gps
     while episode.outcome is None and tick < 1500:

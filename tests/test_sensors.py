@@ -17,11 +17,11 @@ from nav.messages import (
     VehicleState,
 )  # fmt: skip
 from twin.earth import to_world
-from twin.raycast import Scene
 from twin.sensors.gps import hdop
 from twin.sensors.imu import tilt_of
 from twin.sensors.parameters import SensorParameters, sensor_parameters
 from twin.sensors.sensor import draw_mounting, generator, schedule
+from twin.sensors.sight import Sight
 from twin.sensors.suite import SensorSuite
 from twin.truth import Applied
 from twin.world import Obstacle, World
@@ -101,9 +101,9 @@ def parameters(**changes):
 
 def make_suite(seed=0, obstacles=(), disabled=frozenset(), p=None):
     world = World(Flat(), tuple(obstacles), 0.7, ANCHOR, (0.0, 0.0, 0.0), SKY)
-    scene = Scene(world.obstacles)
-    scene.set_ground(np.zeros((360, 360)), -90.0, -90.0, 0.5)
-    return SensorSuite(world, scene, seed, frozenset(disabled), p)
+    sight = Sight(world)
+    sight.set_ground(np.zeros((360, 360)), -90.0, -90.0, 0.5)
+    return SensorSuite(world, sight, seed, frozenset(disabled), p)
 
 
 def run(suite, view, steps):

@@ -4,13 +4,11 @@ import mujoco
 
 import models
 from twin.terrain import Z_TOP_M, TerrainWindow
-from twin.world import SOFT, Obstacle, World
+from twin.world import OPACITY, SOFT, Obstacle, World
 
 HFIELD_BOTTOM_M = 2.0
 """Thickness of the ground below its lowest point."""
 OBSTACLE_GROUP = 1
-YIELDING = frozenset({"brush"})
-"""Kinds that sensors see and that do not hold a vehicle back."""
 SHAPES = {"box": mujoco.mjtGeom.mjGEOM_BOX, "cylinder": mujoco.mjtGeom.mjGEOM_CYLINDER}
 
 
@@ -59,7 +57,7 @@ def _add_obstacle(spec: mujoco.MjSpec, obstacle: Obstacle, friction: float) -> N
         raise ValueError(f"{obstacle.name}: shape {obstacle.shape!r}, expected one of {known}")
     radius, _, half_height = obstacle.half_size_m
     upright = obstacle.shape == "cylinder"
-    touches = int(obstacle.kind not in YIELDING)
+    touches = int(obstacle.kind not in OPACITY)
     spec.worldbody.add_geom(
         name=obstacle.name,
         type=SHAPES[obstacle.shape],

@@ -9,6 +9,7 @@ import numpy as np
 from nav.messages import ActuatorTargets, Gear
 from twin import clock, tire_collision
 from twin.body import CONTROL_S, Body, Start
+from twin.brush import Brush, resisted
 from twin.drive_by_wire import DriveByWire, DriveByWireParameters
 from twin.drivetrain import (
     DrivetrainParameters,
@@ -58,6 +59,8 @@ class Plant(Body):
             Gearbox(gearbox or GearboxParameters(), rng, gear),
             CONTROL_S,
         )
+        self.brush: Brush | None = None
+        """What grows where the vehicle drives."""
         self._brake = -1.0
         self._level = -1
 
@@ -100,5 +103,10 @@ class Plant(Body):
 
     def _drag(self, velocity: list[float]) -> None:
         vx, vy, vz = velocity
-        scale = -self._drivetrain.drag_n_s2_m2 * hypot(vx, vy, vz)
-        self.data.xfrc_applied[self._at.body, :3] = (scale * vx, scale * vy, scale * vz)
+        speed = hypot(vx, vy, vz)
+        scale = -self._drivetrain.drag_n_s2_m2 * speed
+        force = scale * vx, scale * vy, scale * vz
+        if self.brush:
+            x, y, _ = self.data.site_xpos[self._at.site["imu"]].tolist()
+            force = resisted(force, velocity, self.brush.drag_n(x, y, speed))
+        self.data.xfrc_applied[self._at.body, :3] = force

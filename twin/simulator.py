@@ -10,9 +10,10 @@ import models
 from nav.messages import ActuatorTargets, SensorMessage
 from twin import assembly, clock
 from twin.body import Body, Start
+from twin.brush import Brush
 from twin.plant import Plant
-from twin.raycast import Scene
 from twin.sensors.parameters import SensorParameters, sensor_parameters
+from twin.sensors.sight import Sight
 from twin.sensors.suite import SensorSuite
 from twin.terrain import TerrainWindow
 from twin.truth import Truth
@@ -48,11 +49,13 @@ class Simulator:
         x, y, heading = world.start
         self.window = TerrainWindow(world.terrain, x, y)
         model = assembly.compile(world, self.window, kind.model)
-        self.scene = Scene(world.obstacles)
+        self.sight = Sight(world)
         self._see_ground()
         ground = float(world.terrain.height(np.array([x]), np.array([y]))[0])
         self.plant = kind.plant(model, (x, y, ground, heading), seed, assembly.owners(world))
-        self.sensors = SensorSuite(world, self.scene, seed, disabled, kind.sensors())
+        if isinstance(self.plant, Plant) and any(o.kind == "brush" for o in world.obstacles):
+            self.plant.brush = Brush(world.obstacles)
+        self.sensors = SensorSuite(world, self.sight, seed, disabled, kind.sensors())
 
     @property
     def time_ns(self) -> int:
@@ -69,6 +72,10 @@ class Simulator:
         self._follow()
         return delivered
 
+    def reset(self, sensor: str) -> None:
+        """The navigator resets a sensor."""
+        self.sensors.faults.reset(self.time_ns, sensor)
+
     def truth(self) -> Truth:
         """The true state, for judges and pictures only."""
         return self.plant.truth()
@@ -81,4 +88,4 @@ class Simulator:
 
     def _see_ground(self) -> None:
         w = self.window
-        self.scene.set_ground(w.z, w.x0, w.y0, w.spacing)
+        self.sight.set_ground(w.z, w.x0, w.y0, w.spacing)

@@ -8,6 +8,7 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from twin.landforms import Landform
 from twin.world import Floats, Terrain
 
 Points = tuple[tuple[float, float], ...]
@@ -93,7 +94,7 @@ class RollingGround:
 
     seed: int
     octaves: tuple[Octave, ...] = GENTLE
-    features: tuple[Banks, ...] = ()
+    features: tuple[Landform, ...] = ()
 
     def height(self, x: Floats, y: Floats) -> Floats:
         """Ground height [m] at world positions x, y [m]; any matching shapes."""

@@ -6,9 +6,13 @@ from typing import Protocol
 import numpy as np
 from numpy.typing import NDArray
 
+from twin.faults import Fault
+
 Floats = NDArray[np.float64]
 
-SOFT = frozenset({"rumble_strip", "brush"})
+OPACITY = {"brush": 0.5, "phantom": 1.0}
+"""Kinds of obstacle that hold nothing back but beams, and the share of beams (estimated)."""
+SOFT = frozenset({"rumble_strip", *OPACITY})
 """Kinds of obstacle that a vehicle may touch."""
 
 
@@ -35,6 +39,19 @@ class Obstacle:
     """Orientation, w x y z."""
     owner: str = ""
     """The thing it is a part of: two boxes make one car. Contacts are counted per owner."""
+    seen_by: str = ""
+    """Of a phantom: the one scanner that sees it."""
+
+
+@dataclass(frozen=True)
+class Road:
+    """What the image-processing module can see: a road on the ground."""
+
+    line_m: tuple[tuple[float, float], ...]
+    """Its middle, at least two points."""
+    width_m: float
+    unseen_m: tuple[tuple[float, float], ...] = ()
+    """Stretches, from station to station, on which nothing can be made out (glare)."""
 
 
 @dataclass(frozen=True)
@@ -51,3 +68,5 @@ class World:
     """x, y [m] and heading [rad] of the reference point."""
     satellites: Floats = field(repr=False, default_factory=lambda: np.zeros((0, 2)))
     """Shape (n, 2): azimuth counter-clockwise from east and elevation, [rad]."""
+    faults: tuple[Fault, ...] = ()
+    road: Road | None = None

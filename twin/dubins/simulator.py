@@ -63,6 +63,10 @@ class DubinsSimulator:
         hit = touched(self.circles, x, y, self.parameters.drive.disc_radius_m)
         self._contacts = tuple(self._owners[i] for i in np.flatnonzero(hit)) if hit.any() else ()
 
+    def reset(self, sensor: str) -> None:
+        """No sensor of the field fails."""
+        del sensor  # Unused.
+
     def truth(self) -> Truth:
         """The true state, for judges and pictures only."""
         x, y, heading, speed = self.state

@@ -96,6 +96,19 @@ class OdometryParameters(Timing, frozen=True):
     pedal_noise: float
 
 
+class RoadCameraParameters(Timing, frozen=True):
+    """What the image-processing module makes of its cameras."""
+
+    offset_sd_m: float
+    heading_sd_rad: float
+    width_sd_m: float
+    confidence: float
+    blind_confidence: float
+    """Where the road cannot be seen."""
+    blind_factor: float
+    """So much larger are its errors there."""
+
+
 class SensorParameters(_Strict, frozen=True):
     """The whole file."""
 
@@ -106,6 +119,8 @@ class SensorParameters(_Strict, frozen=True):
     imu: ImuParameters
     compass: CompassParameters
     odometry: OdometryParameters
+    road_camera: RoadCameraParameters | None = None
+    """None for a vehicle without."""
 
 
 def sensor_parameters(name: str = "sensors.toml") -> SensorParameters:

@@ -4,9 +4,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from nav.messages import SonarScan
-from twin.raycast import GROUND, Scene, cast_hits
+from twin.raycast import GROUND, cast_hits
 from twin.sensors.parameters import MountingParameters, SonarParameters
 from twin.sensors.sensor import Floats, View, draw_mounting, generator, schedule
+from twin.sensors.sight import Rays, Sight
 
 _RIM = 6
 """Rays on the rim of the cone, besides the one along its axis."""
@@ -22,10 +23,11 @@ class Sonar:
     name = "sonar"
 
     def __init__(
-        self, scene: Scene, seed: int, p: SonarParameters, mounting: MountingParameters
+        self, sight: Sight, seed: int, p: SonarParameters, mounting: MountingParameters
     ) -> None:
         self.schedule = schedule(p)
-        self._p, self._scene = p, scene
+        self._p, self._sight = p, sight
+        self._scene = sight.solid
         self._rng = generator(seed, self.name)
         self._mountings = {unit: draw_mounting(self._rng, mounting) for unit in p.units}
         self._cone = _cone(p.half_cone_rad)
@@ -50,6 +52,9 @@ class Sonar:
             points = origins[unit] + range_m[unit, ray, None] * directions
             mirrored = ~self._ground_echoes(points, directions)
             range_m[unit[mirrored], ray[mirrored]] = limit
+        if veil := self._sight.veil:
+            rays = Rays(origins, self._cone, rotations)
+            range_m = veil.hide(range_m, rays, limit, self.name, 0.0)
         return range_m.min(axis=1)
 
     def _ground_echoes(self, points: Floats, directions: Floats) -> NDArray[np.bool_]:

@@ -5,14 +5,16 @@ from math import lcm
 
 from nav.messages import SensorMessage
 from twin import clock
-from twin.raycast import Scene
+from twin.faults import Faults
 from twin.sensors.compass import Compass
 from twin.sensors.gps import Gps
 from twin.sensors.imu import Imu
 from twin.sensors.lidar import Lidar
 from twin.sensors.odometry import Odometry
 from twin.sensors.parameters import SensorParameters, sensor_parameters
+from twin.sensors.road_camera import RoadCamera
 from twin.sensors.sensor import Sensor, View
+from twin.sensors.sight import Sight
 from twin.sensors.sonar import Sonar
 from twin.world import World
 
@@ -26,7 +28,7 @@ class SensorSuite:
     def __init__(
         self,
         world: World,
-        scene: Scene,
+        sight: Sight,
         seed: int,
         disabled: frozenset[str] = frozenset(),
         parameters: SensorParameters | None = None,
@@ -36,34 +38,38 @@ class SensorSuite:
         Raises:
             ValueError: a disabled name that is no sensor's; the message lists those that exist.
         """
-        sensors = _sensors(world, scene, seed, parameters or sensor_parameters())
+        sensors = _sensors(world, sight, seed, parameters or sensor_parameters())
         names = [sensor.name for sensor in sensors]
         if unknown := sorted(disabled.difference(names)):
             raise ValueError(f"no sensor {unknown[0]!r}; known are {', '.join(names)}")
         self._cycle = lcm(*(sensor.schedule.period for sensor in sensors))
         kept = [(i, s) for i, s in enumerate(sensors) if s.name not in disabled]
         self._due = [[p for p in kept if p[1].schedule.due(k)] for k in range(self._cycle)]
+        self.faults = Faults(world.faults)
         self._queue: list[tuple[int, int, int, SensorMessage]] = []
 
     def poll(self, view: View) -> list[SensorMessage]:
         """Measure what is due at step `view.k`; return what is delivered at it."""
         k = view.k
         for order, sensor in self._due[k % self._cycle]:
-            message = sensor.measure(view, clock.time_ns(k))
-            heappush(self._queue, (k + sensor.schedule.delay, order, k, message))
+            now = clock.time_ns(k)
+            message = sensor.measure(view, now)
+            if not self.faults.silent(now, sensor.name):
+                heappush(self._queue, (k + sensor.schedule.delay, order, k, message))
         delivered: list[SensorMessage] = []
         while self._queue and self._queue[0][0] <= k:
             delivered.append(heappop(self._queue)[3])
         return delivered
 
 
-def _sensors(world: World, scene: Scene, seed: int, p: SensorParameters) -> list[Sensor]:
+def _sensors(world: World, sight: Sight, seed: int, p: SensorParameters) -> list[Sensor]:
     """Every sensor, in the order in which simultaneous messages are heard."""
     return [
-        *(Lidar(unit, scene, seed, p.lidar, p.mounting) for unit in p.lidar.units),
-        Sonar(scene, seed, p.sonar, p.mounting),
-        Gps(world, scene, seed, p.gps, p.mounting),
+        *(Lidar(unit, sight, seed, p.lidar, p.mounting) for unit in p.lidar.units),
+        Sonar(sight, seed, p.sonar, p.mounting),
+        Gps(world, sight.solid, seed, p.gps, p.mounting),
         Imu(seed, p.imu),
         Compass(seed, p.compass),
         Odometry(seed, p.odometry),
+        *([RoadCamera(world.road, seed, p.road_camera)] if world.road and p.road_camera else []),
     ]

@@ -1,0 +1,51 @@
+"""Things of the ground itself: holes, and edges where it falls away."""
+
+from dataclasses import dataclass
+from typing import Protocol
+
+import numpy as np
+
+from twin.world import Floats
+
+
+class Landform(Protocol):
+    """A pure function of position, added to the ground."""
+
+    def height(self, x: Floats, y: Floats) -> Floats:
+        """What it adds to the ground [m] at world positions x, y [m]."""
+        ...
+
+
+@dataclass(frozen=True)
+class Pit:
+    """A round hole with a flat bottom and a wall a lattice cell wide."""
+
+    center_m: tuple[float, float]
+    radius_m: float
+    depth_m: float
+
+    def height(self, x: Floats, y: Floats) -> Floats:
+        """Minus the depth inside."""
+        inside = np.hypot(x - self.center_m[0], y - self.center_m[1]) <= self.radius_m
+        return np.where(inside, -self.depth_m, 0.0)
+
+
+@dataclass(frozen=True)
+class DropOff:
+    """On the right of a line, seen from its start, the ground falls away."""
+
+    start_m: tuple[float, float]
+    end_m: tuple[float, float]
+    depth_m: float
+    reach_m: float = 40.0
+    """The low ground is as wide as this."""
+
+    def height(self, x: Floats, y: Floats) -> Floats:
+        """Minus the depth beyond the line."""
+        (ax, ay), (bx, by) = self.start_m, self.end_m
+        length = float(np.hypot(bx - ax, by - ay))
+        cx, cy = (bx - ax) / length, (by - ay) / length
+        along = (x - ax) * cx + (y - ay) * cy
+        right = (x - ax) * cy - (y - ay) * cx
+        low = (along >= 0.0) & (along <= length) & (right >= 0.0) & (right <= self.reach_m)
+        return np.where(low, -self.depth_m, 0.0)
