@@ -6,26 +6,38 @@ from math import atan2
 import numpy as np
 
 from nav.angles import wrapped
-from nav.fusion.lattice import Ints
+from nav.fusion.health import Health
+from nav.fusion.lattice import Ints, Lattice
 from nav.fusion.obstacle_map import ObstacleMap
-from nav.messages import Decision, DirectCommand, EgoEstimate, Floats, FollowPath
+from nav.messages import (
+    Command,
+    Decision,
+    EgoEstimate,
+    Floats,
+    Gear,
+    RoadEstimate,
+    VehicleState,
+)
 from nav.parameters import Parameters
-from nav.planning.boundaries import Cells, boundaries
+from nav.planning.boundaries import FREE, Cells, boundaries
 from nav.planning.corridor_grid import corridor_distance, edge_levels
 from nav.planning.curve import Curve
 from nav.planning.local_path import clear_distances, join_length, route_ahead
 from nav.planning.scanning import Boundaries
 from nav.planning.speed_profile import speed_profile
+from nav.planning.wide_grid import WideGrid
 from nav.route.smooth_path import Projection, SmoothPath, project, smooth_path
 from nav.route.waypoints import Waypoints
 from nav.states.machine import Machine
-from nav.states.situation import Plan, Situation
+from nav.states.situation import Plan, Situation, stand
 from nav.steering_circle import curvature_rate
 
 CORRIDOR_BEHIND = 2
 """The corridor is drawn from this many segments behind the present one ..."""
 CORRIDOR_AHEAD_M = 45.0
 """... to this far ahead of it."""
+WIDE_BEHIND, WIDE_M = 6, 60.0
+"""The same on the wide grid, on which a way around is looked for."""
 
 
 @dataclass(frozen=True)
@@ -36,6 +48,13 @@ class Senses:
     curvature_per_m: float
     gps_lost_s: float
     sonar_m: dict[str, float]
+    vehicle: VehicleState | None
+    """The newest word of the drive-by-wire unit."""
+    health: Health
+    road: RoadEstimate | None
+    """If it is fresh."""
+    confirmed_m: float
+    """Distance ahead that two sensors confirm to be occupied."""
 
 
 class HighLevelController:
@@ -49,23 +68,37 @@ class HighLevelController:
         self.V0: Floats = speed_profile(self.route, parameters.planning.speed)
         self.machine = Machine(parameters)
         self.here = Projection(0, 0.0, 0.0)
+        self.situation: Situation | None = None
+        """What the last decision saw ..."""
+        self.plan: Plan | None = None
+        """... and what it came to: for who asks why."""
         self._corridor: tuple[tuple[object, ...], Cells] | None = None
         self._obstacles: tuple[Ints, Cells] | None = None
+        self._grid: WideGrid | None = None
+        """What was seen since the trouble began."""
 
     def decide(
         self, time_ns: int, senses: Senses, obstacles: ObstacleMap
-    ) -> tuple[FollowPath | DirectCommand, Decision]:
+    ) -> tuple[Command, Decision]:
         """One decision: the command for the low-level controller, and the numbers behind it."""
         self.here = project(self.route, senses.ego.position_m, self.here.index)
         s = self._situation(time_ns, senses, obstacles)
         plan = self.machine.decide(s)
-        if self.here.arc_m >= self.route.arc_m[-1]:
-            return DirectCommand(time_ns, "stop_and_wait"), self._decision(s, plan)
-        return FollowPath(time_ns, plan.pathpoint_m, plan.speed_mps), self._decision(s, plan)
+        if self._has_arrived():
+            plan = stand(s)
+        self.situation, self.plan = s, plan
+        return plan.command, self._decision(s, plan)
+
+    def _has_arrived(self) -> bool:
+        """Behind the end of the route, and not far beside it."""
+        beside = abs(self.here.cross_track_m) > self.parameters.planning.local_path.arrival_m
+        return self.here.arc_m >= self.route.arc_m[-1] and not beside
 
     def _situation(self, time_ns: int, senses: Senses, obstacles: ObstacleMap) -> Situation:
         p, ego, here = self.parameters.planning, senses.ego, self.here
         boundaries = self._boundaries(obstacles)
+        troubled = self.machine.memory.trouble.arc_m is not None
+        self._grid = self._grid if troubled else None
         ahead = self._route_ahead(ego)
         return Situation(
             time_ns=time_ns,
@@ -74,13 +107,31 @@ class HighLevelController:
             route_ahead=ahead,
             route_clear=clear_distances(ahead, boundaries, p.footprint),
             goal_rad=self._goal(ego),
-            V0_mps=float(self.V0[here.index]),
+            V0_mps=self._limit(senses.health),
             cross_track_m=here.cross_track_m,
-            waypoint=int(self.route.segment[here.index]) + 1,
+            waypoint=self._segment + 1,
             curvature_per_m=senses.curvature_per_m,
             gps_lost_s=senses.gps_lost_s,
             sonar_m=senses.sonar_m,
+            arc_m=here.arc_m,
+            far_goal_m=self._far_goal(boundaries),
+            half_width_m=float(self.waypoints.half_width_m[self._segment]),
+            gear=senses.vehicle.gear if senses.vehicle else Gear.HIGH,
+            shifting=bool(senses.vehicle and senses.vehicle.shifting),
+            health=senses.health,
+            road=senses.road,
+            confirmed_m=senses.confirmed_m,
+            wide=self._wide(ego, boundaries) if troubled else None,
         )
+
+    @property
+    def _segment(self) -> int:
+        return int(self.route.segment[self.here.index])
+
+    def _limit(self, health: Health) -> float:
+        """The speed limit in force: lower with a sensor lost (section 6.3)."""
+        V0 = float(self.V0[self.here.index])
+        return min(V0, self.parameters.states.alarm.lost_mps) if health.lost else V0
 
     def _route_ahead(self, ego: EgoEstimate) -> Curve:
         here, rate = self.here, curvature_rate(self.parameters.vehicle.steering)
@@ -99,6 +150,15 @@ class HighLevelController:
         x, y = self.route.position_m[min(i, len(self.route.arc_m) - 1)] - ego.position_m
         return atan2(float(y), float(x))
 
+    def _far_goal(self, boundaries: Boundaries) -> tuple[float, float]:
+        """The farthest point of the smooth path on the wide grid that is outside all boundaries;
+        beyond the map all is free."""
+        end = int(np.searchsorted(self.route.arc_m, self.here.arc_m + WIDE_M))
+        places = self.route.position_m[self.here.index : end + 1]
+        free = boundaries.at(places[:, 0], places[:, 1]) == FREE
+        x, y = places[free][-1] if free.any() else places[-1]
+        return float(x), float(y)
+
     def _boundaries(self, obstacles: ObstacleMap) -> Boundaries:
         level = np.maximum(self._obstacle_level(obstacles), self._corridor_level(obstacles))
         return Boundaries(level, obstacles.origin_m, obstacles.cell_m)
@@ -115,22 +175,33 @@ class HighLevelController:
 
     def _corridor_level(self, obstacles: ObstacleMap) -> Cells:
         """The boundaries of the corridor's edge; drawn anew when map or segment have moved."""
-        first, last = self._corridor_segments()
+        first, last = self._corridor_segments(CORRIDOR_BEHIND, CORRIDOR_AHEAD_M)
         key = (obstacles.origin_m, first, last)
         if self._corridor is None or self._corridor[0] != key:
-            foot, width_m = self.parameters.planning.footprint, self.waypoints.half_width_m
-            margin_m = (foot.corridor_safe_m, foot.corridor_real_m, foot.corridor_touch_m)
-            inside = corridor_distance(obstacles.lattice, self._corridor_m, width_m, first, last)
-            self._corridor = (key, edge_levels(inside, margin_m))
+            self._corridor = (key, self._edges(obstacles.lattice, first, last))
         return self._corridor[1]
 
-    def _corridor_segments(self) -> tuple[int, int]:
+    def _edges(self, lattice: Lattice, first: int, last: int) -> Cells:
+        foot, width_m = self.parameters.planning.footprint, self.waypoints.half_width_m
+        margin_m = (foot.corridor_safe_m, foot.corridor_real_m, foot.corridor_touch_m)
+        inside = corridor_distance(lattice, self._corridor_m, width_m, first, last)
+        return edge_levels(inside, margin_m)
+
+    def _wide(self, ego: EgoEstimate, boundaries: Boundaries) -> Boundaries:
+        """The corridor and what is known in it, twice as wide as the map."""
+        self._grid = grid = self._grid or WideGrid(boundaries.cell_m)
+        grid.update(boundaries, *ego.position_m.tolist())
+        return grid.with_edges(
+            self._edges(grid.lattice, *self._corridor_segments(WIDE_BEHIND, WIDE_M))
+        )
+
+    def _corridor_segments(self, behind: int, ahead_m: float) -> tuple[int, int]:
         """The first segment that is drawn, and the one after the last."""
-        segment = int(self.route.segment[self.here.index])
-        end = int(np.searchsorted(self.route.arc_m, self.here.arc_m + CORRIDOR_AHEAD_M))
+        segment = self._segment
+        end = int(np.searchsorted(self.route.arc_m, self.here.arc_m + ahead_m))
         finish = end >= len(self.route.arc_m)
         last = int(self.route.segment[-1]) + 2 if finish else int(self.route.segment[end]) + 1
-        return max(0, segment - CORRIDOR_BEHIND), last
+        return max(0, segment - behind), last
 
     def _decision(self, s: Situation, plan: Plan) -> Decision:
         return Decision(

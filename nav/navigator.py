@@ -6,7 +6,9 @@ from math import atan2
 
 from nav.admission import Admission
 from nav.control.low_level import LowLevelController
+from nav.fusion.confirmation import confirmed_m
 from nav.fusion.ego_state import EgoState
+from nav.fusion.health import HealthMonitor
 from nav.fusion.obstacle_map import ObstacleMap
 from nav.fusion.scan_geometry import Pose
 from nav.high_level import HighLevelController, Senses
@@ -16,6 +18,7 @@ from nav.messages import (
     ObstacleCells,
     Outputs,
     Report,
+    RoadEstimate,
     SensorMessage,
     SonarScan,
     VehicleState,
@@ -23,6 +26,7 @@ from nav.messages import (
 from nav.parameters import Parameters
 from nav.route.rddf import Route
 from nav.route.waypoints import route_frame, waypoints_of
+from nav.states.situation import FAR_M
 
 HIGH_LEVEL_EVERY = 5
 """Calls between decisions: 10 Hz of 50 Hz."""
@@ -53,7 +57,11 @@ class IonNavigator:
         }
         self._sonar: SonarScan | None = None
         self._vehicle: VehicleState | None = None
+        self._road: RoadEstimate | None = None
+        self._newest: dict[str, LidarScan] = {}
         self._ready_ns: int | None = None
+        health = parameters.states.health
+        self.health = HealthMonitor(health, (*parameters.vehicle.lidar_mounts, *health.devices))
 
     @property
     def state(self) -> str:
@@ -72,9 +80,13 @@ class IonNavigator:
     def _take(self, message: SensorMessage) -> None:
         if isinstance(message, LidarScan):
             self._scans[message.sensor].append(message)
+            self._newest[message.sensor] = message
             return
         if isinstance(message, SonarScan):
             self._sonar = message
+            return
+        if isinstance(message, RoadEstimate):
+            self._road = message
             return
         if isinstance(message, VehicleState):
             self._vehicle = message
@@ -84,23 +96,40 @@ class IonNavigator:
         self._sense(time_ns, ego)
         if not self._warm(time_ns):
             return (ego,)
-        senses = Senses(
-            ego,
-            self.low_level.curvature_per_m,
-            self.ego.gps_lost_s(time_ns),
-            self._sonar_ranges(time_ns),
-        )
+        senses = self._senses(time_ns, ego)
+        self.obstacles.weigh(senses.health.lost)
         command, decision = self.high_level.decide(time_ns, senses, self.obstacles)
         self.low_level.command_is(command)
         cells = (self._cells(time_ns),) if self.calls % CELLS_EVERY == 0 else ()
         return (ego, command, decision, *cells)
+
+    def _senses(self, time_ns: int, ego: EgoEstimate) -> Senses:
+        sonar = self._sonar_ranges(time_ns)
+        return Senses(
+            ego=ego,
+            curvature_per_m=self.low_level.curvature_per_m,
+            gps_lost_s=self.ego.gps_lost_s(time_ns),
+            sonar_m=sonar,
+            vehicle=self._vehicle,
+            health=self.health.check(time_ns, self.admission.newest_ns),
+            road=self._road if self._road and _is_fresh(self._road.time_ns, time_ns) else None,
+            confirmed_m=self._confirmed_m(ego, sonar),
+        )
+
+    def _confirmed_m(self, ego: EgoEstimate, sonar_m: dict[str, float]) -> float:
+        """Only the guarded watchdog asks for it, so only then it is looked for."""
+        if self.high_level.machine.dog.drives_s is None:
+            return FAR_M
+        scans = {n: s for n, s in self._newest.items() if _is_fresh(s.time_ns, ego.time_ns)}
+        vehicle, tilt = self.parameters.vehicle, (ego.roll_rad, ego.pitch_rad)
+        return confirmed_m(scans, self.obstacles.geometry, sonar_m, vehicle, tilt)
 
     def _sense(self, time_ns: int, ego: EgoEstimate) -> None:
         """Bring the map up to date with all scans since the last decision."""
         x, y = (float(v) for v in ego.position_m)
         self.obstacles.recenter(x, y)
         self.obstacles.integrate(self._scans_with_poses())
-        if self._sonar and time_ns - self._sonar.time_ns < STALE_NS:
+        if self._sonar and _is_fresh(self._sonar.time_ns, time_ns):
             pose = self.ego.pose_at(self._sonar.time_ns)
             self.obstacles.integrate_sonar(self._sonar.range_m, pose)
 
@@ -119,7 +148,7 @@ class IonNavigator:
         return time_ns - self._ready_ns >= self.parameters.states.warm_up_s * 1e9
 
     def _sonar_ranges(self, time_ns: int) -> dict[str, float]:
-        if self._sonar is None or time_ns - self._sonar.time_ns > STALE_NS:
+        if self._sonar is None or not _is_fresh(self._sonar.time_ns, time_ns):
             return {}
         names = self.parameters.vehicle.sonar_mounts
         return dict(zip(names, self._sonar.range_m.tolist(), strict=True))
@@ -127,3 +156,7 @@ class IonNavigator:
     def _cells(self, time_ns: int) -> ObstacleCells:
         cells = self.obstacles.occupied()
         return ObstacleCells(time_ns, cells.position_m, cells.confidence)
+
+
+def _is_fresh(heard_ns: int, time_ns: int) -> bool:
+    return time_ns - heard_ns <= STALE_NS

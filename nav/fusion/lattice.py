@@ -2,7 +2,7 @@
 
 from dataclasses import dataclass
 from math import floor
-from typing import Any, TypeVar
+from typing import TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 from nav.messages import Floats
 
 Ints = NDArray[np.int64]
-Kind = TypeVar("Kind", bound=np.floating[Any])
+Kind = TypeVar("Kind", bound=np.generic)
 
 
 @dataclass(frozen=True)

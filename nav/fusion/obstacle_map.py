@@ -68,17 +68,18 @@ class ObstacleMap:
         """Flat indices, ascending, of the cells that hold confidence, and some more: a hundredth
         of all, so that nobody need look through the whole map."""
         self._gain = np.zeros(shape, np.float32)  # of this tick; zero between ticks
-        self._geometry = {
+        self.geometry = {
             name: scan_geometry(mount, vehicle.lidar, vehicle.outline)
             for name, mount in vehicle.lidar_mounts.items()
         }
         self._teachers = [
             name
-            for name, geometry in self._geometry.items()
+            for name, geometry in self.geometry.items()
             if geometry.mount[2, 0] < -parameters.ground.teaching_slope
         ]
         """Mounted to look at the ground ahead: only such scanners teach it. The others meet ground
         when the vehicle rolls, far away and with errors of their own."""
+        self._hit = parameters.confidence.hit
         self._sonar_arcs = _sonar_arcs(vehicle)
         self._sonar_min_m = vehicle.sonar.min_range_m
         self._footprint = _footprint(vehicle.outline, parameters.cell_m)
@@ -117,6 +118,12 @@ class ObstacleMap:
         )
 
     # ------------------------------------------------------------------ what comes in
+
+    def weigh(self, lost: Sequence[str]) -> None:
+        """With scanners lost, the returns of those that are left count for more (section 6.3)."""
+        gone = len([name for name in lost if name in self.geometry])
+        share = len(self.geometry) / max(len(self.geometry) - gone, 1)
+        self._hit = self.parameters.confidence.hit * share
 
     def recenter(self, x_m: float, y_m: float) -> None:
         """Move the map by whole cells, once (x_m, y_m) is `scroll_m` away from its middle."""
@@ -171,7 +178,7 @@ class ObstacleMap:
         self._clear_footprint(pose)
 
     def _newest(self, scans: Sequence[tuple[LidarScan, Pose]]) -> list[tuple[LidarScan, Pose]]:
-        left = dict.fromkeys(self._geometry, self.parameters.scans_per_sensor)
+        left = dict.fromkeys(self.geometry, self.parameters.scans_per_sensor)
         chosen: list[tuple[LidarScan, Pose]] = []
         for scan, pose in reversed(scans):
             if scan.sensor not in left:
@@ -182,7 +189,7 @@ class ObstacleMap:
         return chosen[::-1]
 
     def _views(self, scans: Sequence[tuple[LidarScan, Pose]]) -> Scans:
-        geometry = [self._geometry[scan.sensor] for scan, _ in scans]
+        geometry = [self.geometry[scan.sensor] for scan, _ in scans]
         poses = [pose for _, pose in scans]
         frame = np.array([placed(*each) for each in zip(geometry, poses, strict=True)])
         return Scans(geometry, frame, np.array([scan.range_m for scan, _ in scans]))
@@ -230,7 +237,7 @@ class ObstacleMap:
         return self._gather(index.take(hit), points[2].take(hit))
 
     def _gather(self, index: Ints, height_m: Floats) -> Ints:
-        np.add.at(self._gain.ravel(), index, np.float32(self.parameters.confidence.hit))
+        np.add.at(self._gain.ravel(), index, np.float32(self._hit))
         top = height_m + self.ground.vehicle_m
         # both sides of one kind: ten times faster
         np.maximum.at(self._top.ravel(), index, top.astype(np.float32))
@@ -238,7 +245,7 @@ class ObstacleMap:
 
     def _add(self, index: Ints) -> None:
         cells, gain = self._confidence.ravel(), self._gain.ravel()
-        most = 2 * self.parameters.confidence.hit
+        most = 2 * self._hit
         cells[index] = np.minimum(cells[index] + np.minimum(gain[index], most), 1.0)
         gain[index] = 0.0
         self._held = _merged(self._held, index)
@@ -305,7 +312,7 @@ def _wheels(vehicle: VehicleParameters) -> Floats:
 def _sonar_arcs(vehicle: VehicleParameters) -> tuple[Floats, Floats]:
     """Origin (n, 1, 3) of each sonar and directions (n, 3, 3) across its cone."""
     mounts = vehicle.sonar_mounts.values()
-    origin = np.array([mount.position_m for mount in mounts])
+    origin = np.array([mount.position_m for mount in mounts]).reshape(-1, 3)
     across = np.array([-1.0, 0.0, 1.0]) * vehicle.sonar.half_cone_rad
     yaw = np.array([mount.yaw_rad for mount in mounts])[:, None] + across
     return origin[:, None, :], np.stack([np.cos(yaw), np.sin(yaw), np.zeros_like(yaw)], axis=-1)

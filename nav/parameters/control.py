@@ -40,11 +40,24 @@ class SpeedControl:
 
 
 @dataclass(frozen=True)
+class OperationControl:
+    """Robotic unit operations."""
+
+    steered_rad: float
+    """The vehicle starts when the road wheels are this near to their target ..."""
+    rolling_mps: float
+    """... and once it is faster than this it goes on."""
+    braking_mps2: float
+    """Towards the end of the operation."""
+
+
+@dataclass(frozen=True)
 class ControlParameters:
     """`control.toml`."""
 
     path: PathFollowing
     speed: SpeedControl
+    operations: OperationControl
     steering_lag_rad: float
     """While the road wheels are farther than this from their target ..."""
     steering_lag_mps: float

@@ -63,6 +63,8 @@ class LocalPathParameters:
     join_min_m: float
     join_offset_m: float
     """Below this offset the path is the smooth path itself."""
+    arrival_m: float
+    """The end of the route is reached no farther beside it than this."""
     turn_rad: float
     """In Obstacle Avoidance a decision this far off the local path's end makes a new one."""
     goal_s: float
@@ -87,6 +89,40 @@ class SpeedProfileParameters:
 
 
 @dataclass(frozen=True)
+class Operations:
+    """Robotic unit operations: arcs back and forth (section 6.3)."""
+
+    lengths_m: tuple[float, ...]
+    """An operation is as long as one of these, ascending, multiples of 0.25 m."""
+    radius_margin: float
+    """Arcs have the smallest turning radius times this."""
+    margin_m: float
+    """An arc ends this far before what it would touch."""
+    shift_cost_m: float
+    """A change between forwards and reverse costs as much as this way."""
+    tight_cost: float
+    """A metre inside the real boundary costs so many metres more."""
+    turn_cost_m: float
+    """Guess of what a radian off the goal's direction will still cost."""
+    exit_m: float
+    """A forward path is free when it is so for this far ..."""
+    exit_rad: float
+    """... in a direction this near to the goal's."""
+    exit_directions: int
+    most_way_m: float
+    """All operations together are no longer: what is farther back is for Rollback."""
+    most_poses: int
+    """The search gives up after so many poses."""
+    poses_a_decision: int
+    speed_mps: float
+
+    @property
+    def longest_m(self) -> float:
+        """The longest arc that must be looked at."""
+        return self.lengths_m[-1] + self.margin_m
+
+
+@dataclass(frozen=True)
 class PlanningParameters:
     """`planning.toml`."""
 
@@ -94,3 +130,4 @@ class PlanningParameters:
     scanning: Scanning
     local_path: LocalPathParameters
     speed: SpeedProfileParameters
+    operations: Operations

@@ -4,7 +4,7 @@ All angles of one call are in one frame, whichever it is, counter-clockwise.
 """
 
 from dataclasses import dataclass
-from math import pi
+from math import inf, pi
 from typing import NamedTuple
 
 import numpy as np
@@ -60,6 +60,8 @@ class Aim(NamedTuple):
     """phi(k)."""
     previous_rad: float | None
     """theta_D(k-1), or None where there was none."""
+    reach_m: float = inf
+    """Distance to the goal point: no direction need be free for longer."""
 
 
 class _Choice(NamedTuple):
@@ -89,9 +91,10 @@ def decide(
         parameters: `steering.toml`.
     """
     S = situation(speed_mps, V0_mps, parameters)
-    delta = deduction(theta_rad, *aim, S.stretch, parameters)
+    delta = deduction(theta_rad, *aim[:3], S.stretch, parameters)
 
     def choose(distance_m: Floats, limit_m: float) -> _Choice:
+        limit_m = min(limit_m, aim.reach_m)
         criterion, among = candidates(distance_m - delta, limit_m, parameters.criterion.epsilon_m)
         return _Choice(criterion, among, nearest(theta_rad, among, aim.goal_rad, aim.previous_rad))
 

@@ -1,69 +1,39 @@
-"""The finite state machine of Fig. 6.3: who may follow whom, and why.
-
-States that the machine does not list yet are not stubbed: Robotic Operations, Alarm, Road
-Following, Rollback and the watchdog come as one file each beside these three.
-"""
+"""The finite state machine of Fig. 6.3 in motion; who may follow whom stands in `transitions`."""
 
 from collections.abc import Callable
 from dataclasses import dataclass, field
 
+from nav.messages import Gear
 from nav.parameters import Parameters
-from nav.states import obstacle_avoidance, path_point_keeping, tunnel_mode
+from nav.states import (
+    alarm,
+    obstacle_avoidance,
+    path_point_keeping,
+    road_following,
+    robotic_operations,
+    rollback,
+    tunnel_mode,
+    watchdog,
+)
 from nav.states.memory import Memory
 from nav.states.situation import Plan, Situation
+from nav.states.transitions import TRANSITIONS
 
-Guard = Callable[[Situation, Memory, Parameters], str]
-"""Says why the transition is due, or nothing."""
-
-
-def in_tunnel(s: Situation, memory: Memory, p: Parameters) -> str:
-    """GPS is gone and there is a wall on either side; never GPS alone."""
-    del memory
-    lost = s.gps_lost_s > p.states.tunnel.gps_lost_s
-    walls = tunnel_mode.between_walls(s, p.states.tunnel)
-    return "no GPS between two walls" if lost and walls else ""
-
-
-def out_of_tunnel(s: Situation, memory: Memory, p: Parameters) -> str:
-    """The walls have ended."""
-    if not tunnel_mode.sides_open(s, p.states.tunnel):
-        memory.open_ns = None
-        return ""
-    if memory.open_ns is None:
-        memory.open_ns = s.time_ns
-    if s.gps_lost_s < p.states.tunnel.gps_back_s:
-        return "walls ended, GPS is back"
-    open_s = (s.time_ns - memory.open_ns) * 1e-9
-    return "walls ended" if open_s > p.states.tunnel.leave_open_s else ""
-
-
-def obstacle_ahead(s: Situation, memory: Memory, p: Parameters) -> str:
-    """The smooth path comes across an obstacle (section 6.4.2)."""
-    del memory, p
-    blocked = s.route_clear.real_m < s.route_ahead.arc_m[-1]
-    return f"obstacle on the smooth path in {s.route_clear.real_m:.0f} m" if blocked else ""
-
-
-def route_clear(s: Situation, memory: Memory, p: Parameters) -> str:
-    """The smooth path is free again."""
-    return "" if obstacle_ahead(s, memory, p) else "smooth path is clear"
-
-
+STOP_MPS = 0.2
+"""A set point below this is a stop."""
+LONGEST_S = 0.5
+"""A decision counts for at most this much time."""
 PLANNERS: dict[str, Callable[[Situation, Memory, Parameters], Plan]] = {
-    path_point_keeping.NAME: path_point_keeping.plan,
-    obstacle_avoidance.NAME: obstacle_avoidance.plan,
-    tunnel_mode.NAME: tunnel_mode.plan,
-}
-TRANSITIONS: dict[str, tuple[tuple[str, Guard], ...]] = {
-    path_point_keeping.NAME: (
-        (tunnel_mode.NAME, in_tunnel),
-        (obstacle_avoidance.NAME, obstacle_ahead),
-    ),
-    obstacle_avoidance.NAME: (
-        (tunnel_mode.NAME, in_tunnel),
-        (path_point_keeping.NAME, route_clear),
-    ),
-    tunnel_mode.NAME: ((path_point_keeping.NAME, out_of_tunnel),),
+    state.NAME: state.plan
+    for state in (
+        path_point_keeping,
+        obstacle_avoidance,
+        tunnel_mode,
+        robotic_operations,
+        alarm,
+        road_following,
+        rollback,
+    )
 }
 
 
@@ -74,13 +44,52 @@ class Machine:
     parameters: Parameters
     state: str = path_point_keeping.NAME
     reason: str = "start"
+    by: str = ""
+    """The name of the guard that led here."""
     memory: Memory = field(default_factory=Memory)
+    dog: watchdog.Watchdog = field(default_factory=watchdog.Watchdog)
+    _time_ns: int | None = None
 
     def decide(self, s: Situation) -> Plan:
         """Change state if a transition is due, then plan."""
+        self._observe(s)
+        if self.dog.drives_s is None:
+            self._change(s)
+        elif reason := self.dog.lets_go(s, self.memory.entered, self.parameters.states.watchdog):
+            self.dog.release()
+            self._enter(path_point_keeping.NAME, reason, "lets_go", s)
+        return self._plan(s)
+
+    def _observe(self, s: Situation) -> None:
+        since_s = 0.0 if self._time_ns is None else (s.time_ns - self._time_ns) * 1e-9
+        elapsed_s, self._time_ns = min(since_s, LONGEST_S), s.time_ns
+        p = self.parameters.states
+        self.dog.observe(s, self.state, elapsed_s, p.watchdog)
+        self.memory.trouble.observe(s, elapsed_s, p.stuck)
+        if s.gear != Gear.REVERSE:
+            self.memory.trail.record(s.pose, p.rollback.longest_m)
+
+    def _change(self, s: Situation) -> None:
+        if reason := self.dog.bites(self.parameters.states.watchdog):
+            self.dog.seize()
+            self._enter(path_point_keeping.NAME, reason, "bites", s)
+            return
         for target, guard in TRANSITIONS[self.state]:
             if reason := guard(s, self.memory, self.parameters):
-                self.state, self.reason = target, reason
-                self.memory.forget()
-                break
-        return PLANNERS[self.state](s, self.memory, self.parameters)
+                self._enter(target, reason, guard.__name__, s)
+                return
+
+    def _enter(self, state: str, reason: str, by: str, s: Situation) -> None:
+        self.state, self.reason, self.by = state, reason, by
+        self.memory.enter(s.pose, s.time_ns)
+        if state in (robotic_operations.NAME, rollback.NAME):
+            self.memory.trouble.begin(s)
+
+    def _plan(self, s: Situation) -> Plan:
+        if self.dog.drives_s is not None:
+            return watchdog.plan(s, self.memory, self.parameters)
+        plan = PLANNERS[self.state](s, self.memory, self.parameters)
+        trouble = self.memory.trouble
+        trouble.held = self.state in watchdog.MAIN_STATES and plan.speed_mps < STOP_MPS
+        trouble.ahead_m = min(plan.D1_m, plan.D_m)
+        return plan

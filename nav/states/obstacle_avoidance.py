@@ -6,14 +6,17 @@ D1 is measured along the local path in force: corridor edges are boundaries, so 
 would mean a stop before every sharp turn.
 """
 
+from typing import NamedTuple
+
 import numpy as np
 
 from nav.angles import wrapped
+from nav.messages import Floats, FollowPath
 from nav.parameters import Parameters
 from nav.planning.local_path import path_length, pathpoints, towards
-from nav.planning.scanning import Turning, fan, scan
+from nav.planning.scanning import Distances, Fan, Turning, fan, scan
 from nav.planning.speed import set_point
-from nav.planning.steering import Aim, decide
+from nav.planning.steering import Aim, SteeringDecision, decide
 from nav.states.memory import Memory
 from nav.states.replanning import distance_ahead, due
 from nav.states.situation import Plan, Situation
@@ -22,39 +25,66 @@ from nav.steering_circle import curvature_rate
 NAME = "obstacle_avoidance"
 
 
+class Considered(NamedTuple):
+    """What the steering controller saw and decided: Fig. 6.7 in numbers."""
+
+    curves: Fan
+    theta_rad: Floats
+    """Shape (n,), the directions in frame N."""
+    distances: Distances
+    goal_rad: float
+    """phi(k)."""
+    decision: SteeringDecision
+    row: int
+    """Of theta_D among the directions."""
+
+
 def plan(s: Situation, memory: Memory, p: Parameters) -> Plan:
     """Scan all directions, decide, and lead ten pathpoints there."""
-    ego = s.ego
-    x, y = (float(v) for v in ego.position_m)
-    curves = fan(p.planning.scanning, p.planning.footprint, _turning(s, p))
-    distances = scan(curves, s.boundaries, p.planning.footprint, x, y, ego.heading_rad)
+    memory.trouble.look(s, p.states.stuck)
+    found = consider(s, memory, p)
+    decision, row = found.decision, found.row
     reason = due(s, memory, p)
-    theta = curves.theta_rad + ego.heading_rad
+    memory.former_rad, memory.decision_rad = memory.decision_rad, decision.theta_D
+    reason = reason or _turned(memory, found.theta_rad[row], p)
+    if reason or memory.pathpoint_m is None:
+        memory.follow(_pathpoints(s, found, p), s.waypoint)
+    assert memory.pathpoint_m is not None
+    D = float(found.distances.touch_m[row])
+    D1 = distance_ahead(s, memory, D, p)
+    limit = min(s.V0_mps, p.planning.speed.avoid_mps)
+    turn = abs(wrapped(decision.theta_D - s.ego.heading_rad))
+    speed = set_point(D1, D, turn, limit, decision.selected, p.speed)
+    command = FollowPath(s.time_ns, memory.pathpoint_m, speed.speed_mps)
+    return Plan(command, speed.speed_mps, decision.theta_D, D1, D, decision.selected, reason, speed)
+
+
+def consider(s: Situation, memory: Memory, p: Parameters) -> Considered:
+    """Scan all directions and decide; changes nothing."""
+    x, y, heading = s.pose
+    curves = fan(p.planning.scanning, p.planning.footprint, _turning(s, p))
+    distances = scan(curves, s.boundaries, p.planning.footprint, x, y, heading)
+    theta, goal = curves.theta_rad + heading, memory.trouble.goal_rad(s)
+    reach = memory.trouble.reach_m(s)
     decision = decide(
         theta,
         distances.real_m,
         distances.safe_m,
-        Aim(ego.heading_rad, s.goal_rad, memory.decision_rad),
-        ego.speed_mps,
+        Aim(heading, goal, memory.decision_rad, reach),
+        s.ego.speed_mps,
         s.V0_mps,
         p.steering,
     )
     row = int(np.argmin(np.abs(theta - decision.theta_D)))
-    memory.decision_rad = decision.theta_D
-    reason = reason or _turned(memory, theta[row], p)
-    if reason or memory.pathpoint_m is None:
-        length = min(
-            path_length(ego.speed_mps, p.planning.local_path), float(distances.real_m[row])
-        )
-        path = towards(curves, row, x, y, ego.heading_rad)
-        memory.follow(pathpoints(path, max(length, p.planning.local_path.shortest_m)), s.waypoint)
-    assert memory.pathpoint_m is not None
-    D = float(distances.touch_m[row])
-    D1 = distance_ahead(s, memory, D, p)
-    limit = min(s.V0_mps, p.planning.speed.avoid_mps)
-    turn = abs(wrapped(decision.theta_D - ego.heading_rad))
-    speed = set_point(D1, D, turn, limit, decision.selected, p.speed).speed_mps
-    return Plan(memory.pathpoint_m, speed, D1, D, decision.theta_D, decision.selected, reason)
+    return Considered(curves, theta, distances, goal, decision, row)
+
+
+def _pathpoints(s: Situation, found: Considered, p: Parameters) -> Floats:
+    """Along the decided curve, as far as it is free."""
+    free_m = float(found.distances.real_m[found.row])
+    local = p.planning.local_path
+    length = max(min(path_length(s.ego.speed_mps, local), free_m), local.shortest_m)
+    return pathpoints(towards(found.curves, found.row, *s.pose), length)
 
 
 def _turned(memory: Memory, decision_rad: float, p: Parameters) -> str:

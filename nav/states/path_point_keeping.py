@@ -3,6 +3,7 @@
 from math import sqrt
 
 from nav.angles import wrapped
+from nav.messages import FollowPath
 from nav.parameters import Parameters
 from nav.planning.local_path import path_length, pathpoints
 from nav.planning.speed import set_point
@@ -26,8 +27,11 @@ def plan(s: Situation, memory: Memory, p: Parameters) -> Plan:
     clear = s.route_clear.real_m
     blocked = clear < s.route_ahead.arc_m[-1]  # the finish is no obstacle
     distance = clear if blocked else p.planning.local_path.look_ahead_m
-    speed = set_point(distance, distance, turn, limit, "safe", p.speed).speed_mps
-    return Plan(memory.pathpoint_m, speed, distance, distance, direction, replanned=reason)
+    speed = set_point(distance, distance, turn, limit, "safe", p.speed)
+    command = FollowPath(s.time_ns, memory.pathpoint_m, speed.speed_mps)
+    return Plan(
+        command, speed.speed_mps, direction, distance, distance, replanned=reason, by_rules=speed
+    )
 
 
 def _through_narrows(s: Situation, p: Parameters) -> float:

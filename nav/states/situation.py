@@ -1,11 +1,17 @@
 """What a state sees when it plans, and what its plan is."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
-from nav.messages import EgoEstimate, Floats
+from nav.fusion.health import Health
+from nav.messages import RESET, STOP, Command, DirectCommand, EgoEstimate, Gear, RoadEstimate
+from nav.planning.arcs import Pose
 from nav.planning.curve import Curve
 from nav.planning.local_path import Clear
 from nav.planning.scanning import Boundaries
+from nav.planning.speed import SpeedDecision
+
+FAR_M = 1e3
+"""Where nothing is."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -30,19 +36,47 @@ class Situation:
     gps_lost_s: float
     sonar_m: dict[str, float]
     """Newest sonar ranges by name; empty where there is none."""
+    arc_m: float = 0.0
+    """Way along the route so far."""
+    far_goal_m: tuple[float, float] = (0.0, 0.0)
+    """The farthest point of the smooth path on the map that is free."""
+    half_width_m: float = 0.0
+    """Of the corridor here."""
+    gear: Gear = Gear.HIGH
+    shifting: bool = False
+    health: Health = field(default_factory=Health)
+    road: RoadEstimate | None = None
+    """What is said of the road, if it is fresh."""
+    confirmed_m: float = FAR_M
+    """Distance ahead that two sensors confirm to be occupied."""
+
+    wide: Boundaries | None = None
+    """In trouble: the corridor and what is known in it, in larger cells, as far as 64 m away."""
+
+    @property
+    def pose(self) -> Pose:
+        """Of the reference point."""
+        x, y = self.ego.position_m.tolist()
+        return x, y, self.ego.heading_rad
 
 
 @dataclass(frozen=True, eq=False)
 class Plan:
-    """A local path and the numbers behind it."""
+    """A command for the low-level controller and the numbers behind it."""
 
-    pathpoint_m: Floats
-    """Shape (10, 2)."""
+    command: Command
     speed_mps: float
-    D1_m: float
-    D_m: float
     decision_rad: float
+    D1_m: float = FAR_M
+    D_m: float = FAR_M
     selected: str = ""
     """`safe` or `real`: which boundary Table 6.1 picked."""
     replanned: str = ""
     """Why the local path is new, or empty."""
+    by_rules: SpeedDecision | None = None
+    """How the set point came about, where the speed fuzzy controller gave it."""
+
+
+def stand(s: Situation, reset: str = "") -> Plan:
+    """The vehicle stands; a sensor may be reset meanwhile."""
+    return Plan(DirectCommand(s.time_ns, RESET if reset else STOP, reset), 0.0, s.goal_rad)

@@ -5,7 +5,7 @@ from math import atan2, cos, sin
 import numpy as np
 
 from nav.angles import wrapped
-from nav.messages import Floats
+from nav.messages import Floats, FollowPath
 from nav.parameters import Parameters
 from nav.parameters.states import TunnelParameters
 from nav.planning.curve import Curve, sampled
@@ -44,7 +44,8 @@ def plan(s: Situation, memory: Memory, p: Parameters) -> Plan:
     assert memory.pathpoint_m is not None
     limit = min(s.V0_mps, p.states.tunnel.speed_mps)
     speed = set_point(clear, clear, 0.0, limit, "safe", p.speed).speed_mps
-    return Plan(memory.pathpoint_m, speed, clear, clear, memory.axis[2], replanned="tunnel")
+    command = FollowPath(s.time_ns, memory.pathpoint_m, speed)
+    return Plan(command, speed, memory.axis[2], clear, clear, replanned="tunnel")
 
 
 def _axis(s: Situation, memory: Memory, p: Parameters) -> Axis:
