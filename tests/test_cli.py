@@ -100,8 +100,8 @@ def test_a_route_that_is_not_there_or_has_no_such_stretch(monkeypatch, capsys, t
 @pytest.mark.parametrize(
     ("arguments", "expected"),
     [
-        (["moon"], "there are: nqe"),
-        ([], "scenarios: nqe"),
+        (["moon"], "there are: dead_end, "),
+        ([], "scenarios: dead_end, "),
         (["nqe", "--route", "x"], "one of them"),
         (["nqe", "--from", "3"], "--route FILE"),
         (["nqe", "--ablate", "sight"], "blind, no-lidar"),

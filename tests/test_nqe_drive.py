@@ -35,6 +35,14 @@ def test_who_drives_blind_hits_something(seed):
     assert figures(build(seed), seed, "blind")["contacts"] == 1
 
 
+@pytest.mark.parametrize("name", ["bumper", "roof", "left", "right"])
+def test_each_scanner_is_missed(name):
+    """The drive takes longer: the vehicle waits for it, and then goes slower. Or it hits a car."""
+    whole, without = (figures(build(0), 0, *ablate) for ablate in ((), (f"no-lidar-{name}",)))
+    slower = without["sim_time_s"] > whole["sim_time_s"] + 100.0
+    assert slower or without["outcome"] == "contact"
+
+
 def test_sonars_keep_the_vehicle_in_the_middle_of_the_tunnel():
     seed = 0
     with_sonar, without = (tunnel_offset_m(seed, *ablate) for ablate in ((), ("no-sonar",)))

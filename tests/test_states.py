@@ -11,9 +11,9 @@ from nav.planning.boundaries import TOUCH
 from nav.planning.curve import sampled
 from nav.planning.local_path import clear_distances
 from nav.planning.scanning import Boundaries
-from nav.states import machine
 from nav.states.machine import Machine
 from nav.states.situation import Situation
+from nav.states.transitions import TRANSITIONS
 from scenarios.parameter_files import parameter_texts
 
 P = parameters_from(parameter_texts())
@@ -43,9 +43,9 @@ def test_starts_and_stays_on_the_smooth_path():
     m = Machine(P)
     plan = m.decide(situation())
     assert m.state == "path_point_keeping"
-    assert plan.pathpoint_m.shape == (10, 2)
+    assert plan.command.pathpoint_m.shape == (10, 2)
     assert plan.speed_mps > 3.0
-    np.testing.assert_allclose(plan.pathpoint_m[:, 1], 0.0, atol=1e-9)
+    np.testing.assert_allclose(plan.command.pathpoint_m[:, 1], 0.0, atol=1e-9)
 
 
 def test_obstacle_on_the_smooth_path_and_back():
@@ -54,7 +54,7 @@ def test_obstacle_on_the_smooth_path_and_back():
     assert m.state == "obstacle_avoidance"
     assert "obstacle on the smooth path" in m.reason
     assert plan.decision_rad > 0.0
-    assert plan.pathpoint_m[-1, 1] > 0.3
+    assert plan.command.pathpoint_m[-1, 1] > 0.3
     m.decide(situation(t=0.1))
     assert m.state == "path_point_keeping"
 
@@ -62,7 +62,9 @@ def test_obstacle_on_the_smooth_path_and_back():
 def test_mirrored_obstacle_gives_mirrored_path():
     left = Machine(P).decide(situation((15.0, 20.0, -4.0, 1.5)))
     right = Machine(P).decide(situation((15.0, 20.0, -1.5, 4.0)))
-    np.testing.assert_allclose(left.pathpoint_m * (1, -1), right.pathpoint_m, atol=1e-6)
+    np.testing.assert_allclose(
+        left.command.pathpoint_m * (1, -1), right.command.pathpoint_m, atol=1e-6
+    )
 
 
 def test_wall_across_stops_the_vehicle():
@@ -91,11 +93,11 @@ def test_tunnel_mode_leads_to_the_centre_line():
     m = Machine(P)
     walls = {**WALLS, "left_front": 1.3, "left_rear": 1.3, "right_front": 0.5, "right_rear": 0.5}
     plan = m.decide(situation(gps_lost_s=1.0, sonar=walls))
-    assert plan.pathpoint_m[-1, 1] == pytest.approx(0.4, abs=0.05)
+    assert plan.command.pathpoint_m[-1, 1] == pytest.approx(0.4, abs=0.05)
 
 
 def test_tunnel_mode_leaves_only_to_path_point_keeping():
-    assert [target for target, _ in machine.TRANSITIONS["tunnel_mode"]] == ["path_point_keeping"]
+    assert [target for target, _ in TRANSITIONS["tunnel_mode"]] == ["path_point_keeping"]
     m = Machine(P)
     m.decide(situation(gps_lost_s=1.0, sonar=WALLS))
     blocked = situation((15.0, 20.0, -4.0, 1.5), t=1.0, gps_lost_s=2.0, sonar=WALLS)

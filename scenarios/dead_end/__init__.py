@@ -1,0 +1,1 @@
+"""A dead end on the way, and another path beside it."""

@@ -1,0 +1,1 @@
+"""Brush across the corridor that a vehicle can drive through."""

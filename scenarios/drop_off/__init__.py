@@ -1,0 +1,1 @@
+"""The ground falls away beside the track."""

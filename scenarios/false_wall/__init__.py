@@ -1,0 +1,1 @@
+"""A wall that only one scanner sees."""

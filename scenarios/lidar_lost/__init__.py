@@ -1,0 +1,1 @@
+"""A scanner fails for good."""

@@ -1,0 +1,1 @@
+"""A scanner fails and comes back when it is reset."""

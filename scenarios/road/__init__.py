@@ -1,0 +1,1 @@
+"""A road in a wide corridor, which glare hides for a while."""

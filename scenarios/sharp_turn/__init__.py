@@ -1,0 +1,1 @@
+"""A turn that no forward path can take."""

@@ -1,0 +1,5 @@
+"""Trials: short courses that put the navigator to one test each."""
+
+from scenarios.trial.course import builder
+
+__all__ = ["builder"]

@@ -1,0 +1,96 @@
+"""`scenario.toml` of a trial: one short course that puts the navigator to one test."""
+
+from importlib import resources
+from typing import Literal
+
+import msgspec
+
+from scenarios.things import SUNK_M
+from twin.faults import Fault
+
+Point = tuple[float, float]
+
+
+class _Strict(msgspec.Struct, forbid_unknown_fields=True, frozen=True):
+    pass
+
+
+class Thing(_Strict, frozen=True):
+    """A box or a cylinder; the seed moves it."""
+
+    kind: str
+    at_m: Point
+    half_m: Point
+    """Half length and half width; of a cylinder its radius, twice."""
+    height_m: float = 1.2
+    bottom_m: float = -SUNK_M
+    """Of a box: above 0 for what hangs."""
+    yaw_deg: float = 0.0
+    shape: Literal["box", "cylinder"] = "box"
+    shift_m: float = 0.3
+    """The seed moves it by at most this, along x and y."""
+    seen_by: str = ""
+    """Of a phantom: the one scanner that sees it."""
+
+
+class Hole(_Strict, frozen=True):
+    """See `twin.landforms.Pit`."""
+
+    at_m: Point
+    radius_m: float
+    depth_m: float
+
+
+class Edge(_Strict, frozen=True):
+    """See `twin.landforms.DropOff`."""
+
+    from_m: Point
+    to_m: Point
+    depth_m: float
+    shift_m: float = 0.0
+    """The seed moves it sideways by at most this."""
+
+
+class RoadPlan(_Strict, frozen=True):
+    """See `twin.world.Road`."""
+
+    line_m: list[Point]
+    width_m: float
+    unseen_m: list[Point] = []
+
+
+class Waypoint(_Strict, frozen=True, array_like=True):
+    """x, y [m], half-width of the corridor [m], and the speed limit [mph] from here on."""
+
+    x_m: float
+    y_m: float
+    half_width_m: float
+    speed_mph: float
+
+
+class Trial(_Strict, frozen=True):
+    """The whole file."""
+
+    title: str
+    course: str
+    time_limit_s: float
+    waypoints: list[Waypoint]
+    stuck_s: float = 150.0
+    friction: float = 0.8
+    bumps: float = 1.0
+    """Factor on the height of the rolling ground."""
+    things: list[Thing] = []
+    holes: list[Hole] = []
+    edges: list[Edge] = []
+    faults: list[Fault] = []
+    road: RoadPlan | None = None
+
+
+def load(package: str) -> Trial:
+    """The trial that belongs to a package.
+
+    Raises:
+        msgspec.ValidationError: an unknown or missing key or a wrong type; names its path.
+    """
+    text = (resources.files(package) / "scenario.toml").read_text(encoding="utf-8")
+    return msgspec.toml.decode(text, type=Trial)

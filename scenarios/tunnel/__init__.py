@@ -1,0 +1,1 @@
+"""A straight metal tunnel on the route line."""

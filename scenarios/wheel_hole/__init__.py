@@ -1,0 +1,1 @@
+"""A hole that holds a wheel until the throttle is opened."""
