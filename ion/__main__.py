@@ -28,6 +28,8 @@ def main() -> NoReturn:
 def _command() -> int:
     import tyro
 
+    from ion.explain.options import Options as ExplainOptions
+    from ion.figures.options import Options as FiguresOptions
     from ion.options import Options
 
     app = tyro.extras.SubcommandApp()
@@ -38,6 +40,28 @@ def _command() -> int:
         from ion import drive as command
 
         return command.drive(options)
+
+    @app.command
+    def explain(options: Annotated[ExplainOptions, tyro.conf.arg(name="")]) -> int:
+        """Say why one decision on a tape came out as it did, in numbers and as a picture."""
+        from ion.explain import command
+
+        return command.explain(options)
+
+    @app.command
+    def figures(options: Annotated[FiguresOptions, tyro.conf.arg(name="")]) -> int:
+        """Draw the paper's figures 6.5 to 6.13 again, from our own runs, as one page."""
+        from ion.figures import command
+
+        return command.figures(options)
+
+    @app.command
+    def states() -> int:
+        """Print the navigator's state machine as a Mermaid diagram."""
+        from nav.states.diagram import mermaid
+
+        print(mermaid(), end="")
+        return 0
 
     return app.cli(
         prog="ion",

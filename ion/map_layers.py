@@ -8,6 +8,7 @@ from matplotlib.axes import Axes
 from matplotlib.collections import LineCollection, PolyCollection
 from numpy.typing import NDArray
 
+from ion.style import AHEAD, EDGE, HARD, MISSED, PASSED, SAND, SEEN, SPEED_MAP, TUNNEL
 from nav.route.rddf import MPH_MPS
 from scenarios.course import Course
 from scenarios.verdicts.shapes import Outline, footprints
@@ -15,10 +16,6 @@ from twin.world import SOFT, Obstacle
 
 Floats = NDArray[np.float64]
 
-PAPER, SAND, EDGE, INK = "#fbfaf7", "#f0e8d6", "#d8c9a6", "#33322e"
-PASSED, MISSED, AHEAD = "#2f7d4f", "#c0392b", "#a5a89f"
-SEEN, HARD, TUNNEL = "#e0701f", "#77736b", "#8fa3b8"
-SPEED_MAP, TRACK = "viridis", "#21918c"
 EDGE_LENGTHS = 0.1
 """Width of the corridor's edge, in lengths of the vehicle."""
 
@@ -40,7 +37,7 @@ class Scene(NamedTuple):
     @property
     def length_m(self) -> float:
         """Of the vehicle."""
-        return self.outline.front_m - self.outline.rear_m
+        return self.outline.front_m - self.outline.rear_m + 2.0 * self.outline.radius_m
 
     def gate_color(self, gate: int) -> str:
         """Of a gate that was passed, missed, or lies ahead."""
@@ -49,8 +46,9 @@ class Scene(NamedTuple):
 
 def draw_scene(axes: Axes, scene: Scene, detail: bool) -> LineCollection:
     """Draw all layers; a detail with stronger lines. Returns the trajectory, for a colour bar."""
-    _draw_corridor(axes, scene.course, EDGE_LENGTHS * scene.length_m)
-    _draw_obstacles(axes, scene.course.world.obstacles)
+    course = scene.course
+    draw_corridor(axes, course.waypoint_m, course.half_width_m, EDGE_LENGTHS * scene.length_m)
+    draw_obstacles(axes, course.world.obstacles)
     size = 1.6 if detail else 0.7
     axes.plot(*scene.cells_m.T, "s", color=SEEN, markersize=size, markeredgewidth=0, zorder=4)
     for k, gate in enumerate(scene.course.gates):
@@ -61,9 +59,15 @@ def draw_scene(axes: Axes, scene: Scene, detail: bool) -> LineCollection:
     return _draw_track(axes, scene.track, 3.0 if detail else 1.7, top_mph)
 
 
-def _draw_corridor(axes: Axes, course: Course, edge_m: float) -> None:
-    """Rectangles and discs in one colour, over the same a little larger for the edge."""
-    P, width = course.waypoint_m, course.half_width_m
+def draw_corridor(axes: Axes, P: Floats, width: Floats, edge_m: float) -> None:
+    """Rectangles and discs in one colour, over the same a little larger for the edge.
+
+    Args:
+        axes: drawn on.
+        P: waypoints, shape (n, 2).
+        width: half-widths from each to the next, shape (n,).
+        edge_m: how broad the edge is drawn.
+    """
     for color, extra, z in ((EDGE, edge_m, 0.0), (SAND, 0.0, 1.0)):
         shapes = [_capsule(P[k], P[k + 1], width[k] + extra) for k in range(len(P) - 1)]
         axes.add_collection(_polygons(shapes, color, z))
@@ -77,17 +81,18 @@ def _capsule(start: Floats, end: Floats, radius_m: float) -> Floats:
     return np.vstack([end + arc, start - arc])
 
 
-def _draw_obstacles(axes: Axes, obstacles: Sequence[Obstacle]) -> None:
+def draw_obstacles(axes: Axes, obstacles: Sequence[Obstacle]) -> None:
     """What may be touched or passed under is lighter."""
     colors = {"tunnel": (TUNNEL, 2.0), **dict.fromkeys(sorted(SOFT), (EDGE, 2.0))}
     groups: dict[tuple[str, float], list[Floats]] = {}
     for obstacle in obstacles:
-        groups.setdefault(colors.get(obstacle.kind, (HARD, 3.0)), []).append(_shadow(obstacle))
+        groups.setdefault(colors.get(obstacle.kind, (HARD, 3.0)), []).append(shadow(obstacle))
     for (color, z), shapes in groups.items():
         axes.add_collection(_polygons(shapes, color, z))
 
 
-def _shadow(obstacle: Obstacle) -> Floats:
+def shadow(obstacle: Obstacle) -> Floats:
+    """Its outline in plan view, shape (k, 2), world frame."""
     if obstacle.shape == "cylinder":
         turn = np.linspace(0.0, 2.0 * np.pi, 17)
         circle = np.stack([np.cos(turn), np.sin(turn)], axis=1)

@@ -5,11 +5,10 @@ from pathlib import Path
 
 import numpy as np
 from matplotlib.axes import Axes
-from matplotlib.backends.backend_agg import FigureCanvasAgg
-from matplotlib.figure import Figure
 from numpy.typing import NDArray
 
-from ion.map_layers import AHEAD, INK, MISSED, PAPER, PASSED, SEEN, TRACK, Scene, draw_scene
+from ion.map_layers import Scene, draw_scene
+from ion.style import AHEAD, DPI, INK, MISSED, PAPER, PASSED, SEEN, TRACK, new_figure
 from ion.trace import Trace
 from nav.route.rddf import FOOT_M
 from scenarios.course import Course
@@ -21,7 +20,7 @@ Floats = NDArray[np.float64]
 Box = tuple[float, float, float, float]
 """Left, right, bottom, top, [m]."""
 
-WIDTH_IN, DETAIL_IN, DPI = 12.0, 2.9, 150
+WIDTH_IN, DETAIL_IN = 12.0, 2.9
 MARGIN_LENGTHS = 4.6
 """Around course and trajectory, in lengths of the vehicle."""
 DETAIL_LENGTHS = (6.9, 3.6)
@@ -50,8 +49,7 @@ def draw_map(course: Course, trace: Trace, judge: Judge, title: str, path: Path)
     scene = Scene(course, judge.outline, trace.track(), cells_m, passed, missed)
     whole, details = _whole(scene), _details(judge)
     map_in = _height_in(whole)
-    figure = Figure((WIDTH_IN, map_in + DETAIL_IN), layout="constrained", facecolor=PAPER)
-    FigureCanvasAgg(figure)
+    figure = new_figure(WIDTH_IN, map_in + DETAIL_IN)
     grid = figure.add_gridspec(2, len(details), height_ratios=[map_in, DETAIL_IN])
     _draw_whole(figure.add_subplot(grid[0, :]), scene, whole, title)
     for k, (name, pose) in enumerate(details):

@@ -62,7 +62,7 @@ def job_of(options: Options) -> Job:
     _check_ablations(options.ablate, source)
     if options.jobs < 1:
         raise UsageError(f"--jobs {options.jobs}: expected 1 or more")
-    _check_folder(options.out)
+    check_folder(options.out)
     few = options.seeds is not None and options.log is None
     return Job(source, options.out, options.log or "full", options.ablate, failures_only=few)
 
@@ -115,7 +115,12 @@ def _check_ablations(names: tuple[str, ...], source: Source) -> None:
             raise UsageError(str(error)) from error
 
 
-def _check_folder(folder: Path) -> None:
+def check_folder(folder: Path) -> None:
+    """Make the folder of `--out`, and try it before the work begins.
+
+    Raises:
+        UsageError: it cannot be written.
+    """
     try:
         folder.mkdir(parents=True, exist_ok=True)
         with TemporaryFile(dir=folder):
