@@ -1,4 +1,5 @@
 import math
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -232,7 +233,7 @@ def test_contacts_are_merged_within_a_second_an_object():
 
 
 def test_stuck_after_a_minute_within_a_metre():
-    judge = Judge(course())
+    judge = Judge(replace(course(), stuck_s=60.0))
     drive(judge, ((20.0 + 0.4 * (k % 2), 0.0) for k in range(2999)))
     assert judge.outcome is None
     drive(judge, ((20.0, 0.0) for _ in range(5)), first=2999)
