@@ -181,6 +181,19 @@ def test_what_is_gone_vanishes_within_a_second(chart: ObstacleMap) -> None:
     assert len(chart.occupied().index) == 0
 
 
+def test_a_level_beam_that_dips_onto_a_bale_does_not_make_it_forgotten(chart: ObstacleMap) -> None:
+    bale: Box = (16.0, 16.46, -1.0, 1.0, 0.42)
+    seen = drive(chart, [bale], start=-10.0, stop=3.0)
+    down = 0.011  # 0.6 degrees, unnoticed, for two ticks: the bumper's beams end on the bale
+    for k in range(2):
+        pose = Pose(3.0 + 0.5 * k, 0.0, 0.0, 0.0, down)
+        tick(chart, pose, [bale], time_s=2.7 + 0.1 * k, error=(0.0, 0.0, 0.0, 0.0, -down))
+    for k, x in enumerate(np.arange(4.0, 12.0, 0.5)):
+        tick(chart, on(flat, float(x)), [bale], time_s=2.9 + 0.1 * k)
+    assert seen > 5
+    assert len(chart.occupied().index) > 0.8 * seen
+
+
 def test_a_blind_corner_persists(chart: ObstacleMap) -> None:
     beside = (1.0, 3.0, 2.0, 3.0, 1.5)
     drive(chart, [beside], start=-12.0, stop=6.0)

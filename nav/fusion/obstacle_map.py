@@ -32,6 +32,8 @@ from nav.parameters.obstacle_map import ObstacleMapParameters
 from nav.parameters.vehicle import Outline, VehicleParameters
 
 _NO_TOP_M = -1e6
+_TOP_SHARE = 0.5
+"""By which a cell's top moves to the highest return of a tick."""
 _NONE = np.zeros(0)
 _LONGEST_S = 0.3
 """Decay of one tick covers at most this time: one look after a gap proves no long absence."""
@@ -238,10 +240,22 @@ class ObstacleMap:
 
     def _gather(self, index: Ints, height_m: Floats) -> Ints:
         np.add.at(self._gain.ravel(), index, np.float32(self._hit))
-        top = height_m + self.ground.vehicle_m
-        # both sides of one kind: ten times faster
-        np.maximum.at(self._top.ravel(), index, top.astype(np.float32))
+        self._raise(index, height_m + self.ground.vehicle_m)
         return index
+
+    def _raise(self, index: Ints, height_m: Floats) -> None:
+        """Let the tops of cells follow the highest return of a tick, above the datum.
+
+        The highest of all would not do: one level beam that dips onto a bale far away, half a
+        degree off, seems to have met something tall, and the next beams just over it deny it all.
+        """
+        cells, which = np.unique(index, return_inverse=True)
+        highest = np.full(len(cells), _NO_TOP_M)
+        np.maximum.at(highest, which, height_m)
+        tops = self._top.ravel()
+        old = tops[cells]
+        share = np.where(old > _NO_TOP_M, _TOP_SHARE, 1.0)
+        tops[cells] = old + share * (highest - old)
 
     def _add(self, index: Ints) -> None:
         cells, gain = self._confidence.ravel(), self._gain.ravel()
