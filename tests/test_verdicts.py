@@ -340,3 +340,23 @@ def test_what_a_segment_holds_lies_in_the_corridor():
         beside = (along >= 0.0) & (along <= segment.length_m)
         np.testing.assert_array_equal(held, deep & beside)
         assert held.any()
+
+
+# ---------------------------------------------------------------- falls
+
+
+def test_a_vehicle_on_its_side_has_fallen():
+    judge = Judge(course())
+    for k, roll in enumerate((0.0, 0.5, 0.8)):
+        judge.observe(replace(truth(k, 0.1 * k, 0.0), roll_rad=roll), None, None)
+        assert judge.outcome == ("fell" if roll > 0.785 else None)
+    assert judge.figures()["max_tilt_rad"] == pytest.approx(0.8)
+
+
+@pytest.mark.parametrize(("sink_mps", "outcome"), [(0.6, None), (1.0, "fell")])
+def test_who_sinks_faster_than_courses_slope_has_fallen(sink_mps, outcome):
+    judge = Judge(course())
+    for k in range(100):
+        low = np.array([0.1 * k, 0.0, -sink_mps * 0.02 * k])
+        judge.observe(replace(truth(k, 0.1 * k, 0.0), position_m=low), None, None)
+    assert judge.outcome == outcome

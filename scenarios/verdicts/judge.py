@@ -14,6 +14,7 @@ from scenarios.course import Course
 from scenarios.verdicts.clearance import Clearance, in_the_way
 from scenarios.verdicts.contacts import Contacts
 from scenarios.verdicts.corridor import Departures, Progress
+from scenarios.verdicts.falls import Falls
 from scenarios.verdicts.gates import GateKeeper
 from scenarios.verdicts.shapes import Outline, Pose
 from scenarios.verdicts.tracking import CrossTrack, Deviation, frames, line_offset_m, route_path
@@ -80,6 +81,7 @@ class Judge:
         self.departures = Departures(corridor)
         self.gates = GateKeeper(course.gates, self.outline)
         self.contacts = Contacts(frozenset(o for o, kind in owners.items() if kind in SOFT))
+        self.falls = Falls()
         self.clearance = Clearance(in_the_way(course.world), self.outline)
         path = self.path or route_path(course)
         self.frames = frames(course)
@@ -98,6 +100,7 @@ class Judge:
         self.departures.observe(truth.time_ns, self.progress.segment, truth.tire_center_m[:, :2])
         self.gates.observe(pose)
         self.contacts.observe(truth.time_ns, truth.contacts)
+        self.falls.observe(truth)
         self.clearance.observe(truth.time_ns, pose)
         self._observe_lines(truth, estimate, decision)
         state = decision.state if decision else "starting"
@@ -138,6 +141,7 @@ class Judge:
         over = {
             "contact": self.contacts.count > 0,
             "departure": self.departure_ends and self.departures.count > 0,
+            "fell": self.falls.fell,
             "finished": self.progress.finished,
             "stuck": self.movement.still_s >= self.course.stuck_s,
             "timeout": time_s >= self.course.time_limit_s,
@@ -155,6 +159,7 @@ class Judge:
             "contacts": self.contacts.count,
             "contact_objects": self.contacts.objects,
             "grounded": self.contacts.grounded,
+            "max_tilt_rad": self.falls.max_tilt_rad,
             "departures": self.departures.count,
             "min_clearance_m": self.clearance.least_m.get("other"),
             "gate_clearance_m": self.clearance.least_m.get("gate"),
