@@ -17,7 +17,8 @@ slope-based filter of Vosselman (2000, "Slope based filtering of laser altimetry
 
 Heights are relative to a datum. The vehicle's own height follows from the way driven and the
 measured pitch, drawn to the known ground under the wheels; a constant pitch bias tilts the whole
-apparent world and so changes no difference of heights. Ditches are not looked for.
+apparent world and so changes no difference of heights. Drops are looked
+for in `negative_obstacles`.
 """
 
 from math import cos, sin, tan
@@ -38,6 +39,7 @@ _PULL = 0.2
 """Share of the offset to known ground that the vehicle's height follows, a tick."""
 _TILT_WAY_M, _TILT_MAX_RAD, _STANDS_M = 40.0, 0.03, 0.02
 """The tilt is learned over some 40 m: longer than the 15 m that the scanner looks ahead."""
+_NOWHERE = Pose(0.0, 0.0, 0.0, 0.0, 0.0)
 _PRIOR_M2 = 50.0
 """Weight of the vehicle's own plane in the trend, as one cell seen at 7 m."""
 
@@ -65,7 +67,8 @@ class GroundProfile:
         """How much deeper the teaching scanner looks than it is believed to: learned by driving
         over what it taught. Its heights are too high by this times the distance."""
         self._pose: Pose | None = None
-        self._ahead = (1.0, 0.0)
+        self.ahead = (1.0, 0.0)
+        """Where the vehicle looks: east and north."""
         self._plane = (0.0, 0.0)
 
     def _unknown(self) -> Floats:
@@ -86,7 +89,7 @@ class GroundProfile:
         self.vehicle_m -= way * tan(pose.pitch_rad)
         fore, left = -tan(pose.pitch_rad), tan(pose.roll_rad)
         self._plane = (fore * c - left * s, fore * s + left * c)
-        self._ahead = (c, s)
+        self.ahead = (c, s)
         self._pose = pose
         self._stand(pose, abs(way))
         self._due += abs(way) + _DUE_EACH_M
@@ -110,7 +113,7 @@ class GroundProfile:
     def _under(self, pose: Pose, wheel_m: tuple[float, float]) -> tuple[tuple[int, int], float]:
         """The cell under a wheel, and how high the vehicle's plane lies in its middle: cells are
         coarse, and slopes would drag."""
-        (c, s), (x, y) = self._ahead, wheel_m
+        (c, s), (x, y) = self.ahead, wheel_m
         cell = self.lattice.cell(pose.x_m + (c * x - s * y), pose.y_m + (s * x + c * y))
         east, north = self.lattice.middle_m(cell)
         plane = self._plane[0] * (east - pose.x_m) + self._plane[1] * (north - pose.y_m)
@@ -140,20 +143,24 @@ class GroundProfile:
     def _far_bound(self, pose: Pose) -> Floats:
         """The trend, bent up away from known ground: a parabola's erosion, which is separable."""
         p = self.parameters
-        pooled = _pooled(self.height_m)
+        blocks, (east, north) = pooled(self.height_m), self.block_centres()
         cell_m, bend = 2 * p.cell_m, 0.5 * p.curvature_pm
-        centre = (np.arange(len(pooled), dtype=np.float64) + 0.5) * cell_m
-        east = centre + (self.lattice.origin_m[0] - pose.x_m)
-        north = (centre + (self.lattice.origin_m[1] - pose.y_m))[:, None]
-        forward = east * self._ahead[0] + north * self._ahead[1]
-        slope = self._trend(pooled - self.vehicle_m, (east, north), forward > 0)
+        forward = east * self.ahead[0] + north * self.ahead[1]
+        slope = self._trend(blocks - self.vehicle_m, (east, north), forward > 0)
         trend = slope[0] * east + slope[1] * north
         steps = range(1, round(p.reach_m / cell_m) + 1)
-        bound = _eroded(pooled - trend, tuple(bend * (k * cell_m) ** 2 for k in steps))
+        bound = _eroded(blocks - trend, tuple(bend * (k * cell_m) ** 2 for k in steps))
         guess = self.vehicle_m + bend * (east * east + north * north)
         bound = np.where(bound < 0.5 * UNKNOWN_M, bound, guess) + trend
         bound[forward < -cell_m] = UNKNOWN_M
         return bound.repeat(2, axis=1).repeat(2, axis=0)
+
+    def block_centres(self) -> tuple[Floats, Floats]:
+        """East (m,) and north (m, 1) of the blocks of two by two cells, from the vehicle, [m]."""
+        cell_m, pose = 2 * self.parameters.cell_m, self._pose or _NOWHERE
+        centre = (np.arange(self.lattice.count // 2, dtype=np.float64) + 0.5) * cell_m
+        east = centre + (self.lattice.origin_m[0] - pose.x_m)
+        return east, (centre + (self.lattice.origin_m[1] - pose.y_m))[:, None]
 
     def _trend(
         self, height: Floats, place: tuple[Floats, Floats], ahead: NDArray[np.bool_]
@@ -218,7 +225,7 @@ class GroundProfile:
         cells[taught] = old + gain * (mean - old)
 
 
-def _pooled(height: Floats) -> Floats:
+def pooled(height: Floats) -> Floats:
     """Mean of the known cells in each block of two by two, UNKNOWN_M where there are none."""
     known = (height < UNKNOWN_M).astype(np.float64)
     count, total = _blocks(known), _blocks(known * height)

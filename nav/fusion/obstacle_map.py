@@ -4,6 +4,7 @@ A cell gains confidence from returns above the ground profile. It loses confiden
 quickly where a beam passes through it no higher than its known top, slowly where a beam ends at
 its distance but not in it (a wall seen from a pose that has drifted since). What no beam reaches
 keeps its confidence, so blind corners persist, and so does what is lower than the level beams.
+Drops enter the same cells (`negative_obstacles`), and lose where steep beams meet ground.
 """
 
 from collections.abc import Sequence
@@ -16,8 +17,10 @@ from numpy.typing import NDArray
 
 from nav.errors import NavError
 from nav.fusion.bumps import bumps
+from nav.fusion.expected_ground import Bools, Expected, expected
 from nav.fusion.ground_profile import GroundProfile
 from nav.fusion.lattice import Ints, Lattice
+from nav.fusion.negative_obstacles import NOTHING, drops
 from nav.fusion.scan_geometry import (
     Pose,
     Scans,
@@ -81,6 +84,9 @@ class ObstacleMap:
         ]
         """Mounted to look at the ground ahead: only such scanners teach it. The others meet ground
         when the vehicle rolls, far away and with errors of their own."""
+        self._negative = parameters.negative
+        self._shown = np.zeros(shape[0] * shape[1], bool)
+        """Cells in which beams show a drop; all False between ticks."""
         self._hit = parameters.confidence.hit
         self._sonar_arcs = _sonar_arcs(vehicle)
         self._sonar_min_m = vehicle.sonar.min_range_m
@@ -153,10 +159,13 @@ class ObstacleMap:
         chosen.sort(key=lambda each: each[0].sensor not in self._teachers)
         views = self._views(chosen)
         steep = [scan.sensor for scan, _ in chosen if scan.sensor in self._teachers]
-        hits = self._mark(views, len(steep), pose)
+        expect = expected(self.ground, self._negative) if self._negative.enabled and steep else None
+        lower = drops(views.only(list(range(len(steep)))), expect, pose) if expect else NOTHING
+        hits = self._mark(views, len(steep), pose, expect)
         newest = {scan.sensor: k for k, (scan, _) in enumerate(chosen)}
         self._decay(views.only(list(newest.values())), self._elapsed_s(time_ns))
         self._add(hits)
+        self._mark_drops(lower)
         self._clear_footprint(pose)
 
     def integrate_sonar(self, range_m: Floats, pose: Pose) -> None:
@@ -208,10 +217,11 @@ class ObstacleMap:
 
     # ------------------------------------------------------------------ returns
 
-    def _mark(self, scans: Scans, steep: int, pose: Pose) -> Ints:
+    def _mark(self, scans: Scans, steep: int, pose: Pose, expect: Expected | None) -> Ints:
         """Sort the returns; obstacles gain in `_gain` and `_top`. Returns their cells.
 
-        The first `steep` scans are those of scanners that look down.
+        The first `steep` scans are those of scanners that look down. What they meet far away is
+        ground where it continues what is known.
         """
         p = self.parameters.ground
         beam = returns(scans, self.parameters.max_range_m)
@@ -226,8 +236,10 @@ class ObstacleMap:
         obstacle, ground, coarse = self.ground.classify(points, distance)
         stands_out = ground[first] & (bump > p.bump_m)
         obstacle[first] |= stands_out
+        place = np.stack([x[first], y[first], points[2, first]])
+        met = ground[first] & ~stands_out & self._teaches(place, distance[first], expect)
         teaching = np.zeros_like(ground)
-        teaching[first] = ground[first] & ~stands_out & (distance[first] < p.teaching_range_m)
+        teaching[first] = met
         self.ground.learn(coarse, points[2], teaching, obstacle)
         index, inside = self.lattice.index(points[0], points[1])
         bare = teaching[first] & (np.abs(bump) < p.flat_m) & inside[first]
@@ -237,6 +249,19 @@ class ObstacleMap:
         points[2, first] -= p.tilt_rad * distance[first]
         hit = np.flatnonzero(obstacle & inside)
         return self._gather(index.take(hit), points[2].take(hit))
+
+    def _teaches(self, place: Floats, distance_m: Floats, expect: Expected | None) -> Bools:
+        """Which ends of steep beams (3, n) may teach the ground: near ones, and farther ones that
+        continue it; not those on the low ground behind an edge, nor on the wall between."""
+        near, p = distance_m < self.parameters.ground.teaching_range_m, self._negative
+        if not p.enabled:
+            return near
+        if expect:
+            near = (distance_m < p.reach_m) & expect.continues(place, near)
+        jump = np.abs(np.diff(place[2])) > p.doubt_m
+        near[1:] &= ~jump
+        near[:-1] &= ~jump
+        return near
 
     def _gather(self, index: Ints, height_m: Floats) -> Ints:
         np.add.at(self._gain.ravel(), index, np.float32(self._hit))
@@ -256,6 +281,21 @@ class ObstacleMap:
         old = tops[cells]
         share = np.where(old > _NO_TOP_M, _TOP_SHARE, 1.0)
         tops[cells] = old + share * (highest - old)
+
+    def _mark_drops(self, place_m: Floats) -> None:
+        """Cells where drops are shown gain, and so do their neighbours.
+
+        A drop has no top, so that no level beam denies it."""
+        index, inside = self.lattice.index(place_m[0], place_m[1])
+        index = index[inside]
+        if index.size:
+            count, last = self.lattice.count, self._shown.size - 1
+            for beside in (0, 1, -1, count, -count):
+                self._shown[np.minimum(np.maximum(index + beside, 0), last)] = True
+            cells = np.flatnonzero(self._shown)
+            self._shown[cells] = False
+            self._gain.ravel()[cells] = self._negative.gain
+            self._add(cells)
 
     def _add(self, index: Ints) -> None:
         cells, gain = self._confidence.ravel(), self._gain.ravel()
@@ -285,7 +325,10 @@ class ObstacleMap:
         bare = np.zeros(cells.size, bool)
         bare[self._bare] = True
         rate = np.where(through | bare[index], p.clear_ps, np.where(beside, p.fade_ps, 0.0))
-        left = np.maximum(cells[index] - rate * elapsed_s, 0.0)
+        loss = rate * elapsed_s
+        drop = self._top.ravel()[index] == _NO_TOP_M
+        loss[drop & bare[index]] = self._negative.clear
+        left = np.maximum(cells[index] - loss, 0.0)
         cells[index] = left
         self._top.ravel()[index[left == 0.0]] = _NO_TOP_M
 

@@ -66,6 +66,40 @@ class ConfidenceParameters:
 
 
 @dataclass(frozen=True)
+class NegativeParameters:
+    """How drops are found: see `nav.fusion.negative_obstacles`."""
+
+    enabled: bool
+    drop_m: float
+    """So far below the floor a beam must have passed."""
+    doubt_m: float
+    """What lies so far below the floor, or below and above its neighbours in a scan, is no
+    continuation of the known ground and teaches nothing."""
+    low_m: float
+    """Where there is no floor, what is near teaches down to this far below the plane."""
+    curvature_pm: float
+    """Sharpest bend downwards of ground that has not been seen yet, [1/m]."""
+    near_m: float
+    """How far known ground says how low its surroundings may lie."""
+    frontier_m: tuple[float, float]
+    """The known ground from the first distance ahead says how it goes on, if some of it lies beyond
+    the second."""
+    reach_m: float
+    """Beams that cross the plane farther away say nothing."""
+    fall_min: float
+    """Beams that fall less against the ground, for each metre, say nothing."""
+    fan_rad: float
+    """Beams farther from the middle of their fan say nothing."""
+    gain: float
+    """Confidence that a tick adds where it shows a drop."""
+    clear: float
+    """Confidence that a drop loses, a tick, where a steep beam meets ground in its cell."""
+
+    def __post_init__(self) -> None:
+        _positive(self)
+
+
+@dataclass(frozen=True)
 class ObstacleMapParameters:
     """`obstacle_map.toml`."""
 
@@ -81,6 +115,7 @@ class ObstacleMapParameters:
     """Echoes from beyond are left out."""
     confidence: ConfidenceParameters
     ground: GroundParameters
+    negative: NegativeParameters
 
     def __post_init__(self) -> None:
         _positive(self)
@@ -92,5 +127,5 @@ class ObstacleMapParameters:
 
 def _positive(parameters: object) -> None:
     for name, value in vars(parameters).items():
-        if isinstance(value, int | float) and not value > 0:
+        if isinstance(value, int | float) and not isinstance(value, bool) and not value > 0:
             raise ValueError(f"{name} is {value}; must be positive")

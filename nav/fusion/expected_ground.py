@@ -1,0 +1,142 @@
+"""Where ground should be that has not been seen yet: a plane, and a floor below it.
+
+The ground that is known is continued into what is not: along the plane of its last metres ahead,
+bent down by at most `curvature_pm` / 2 * distance^2. That is the mirror image of the bound by which
+`ground_profile` tells obstacles from ground.
+"""
+
+from dataclasses import dataclass
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from nav.fusion.ground_profile import UNKNOWN_M, GroundProfile, pooled
+from nav.messages import Floats
+from nav.parameters.obstacle_map import NegativeParameters
+
+Bools = NDArray[np.bool_]
+
+LEAST_BLOCKS, LEAST_FAR, SPREAD = 12, 4, 1e-3
+"""So much of the ground ahead must be known, and of its far part: where the beams have been thrown
+far ahead, nothing is said. And what keeps the equations regular."""
+
+
+class Plane(NamedTuple):
+    """Through the known ground ahead; origin at the reference point, level axes."""
+
+    height_m: float
+    """At the vehicle."""
+    east: float
+    north: float
+    """Slopes."""
+
+    def rise(self, east: Floats, north: Floats) -> Floats:
+        """What the slopes make of a way."""
+        return self.east * east + self.north * north
+
+    def over(self, point_m: Floats) -> Floats:
+        """How far points (3, n), from the vehicle, lie above it, (n,)."""
+        return point_m[2] - self.height_m - self.rise(point_m[0], point_m[1])
+
+
+def _plane_of(ground: GroundProfile, p: NegativeParameters) -> Plane | None:
+    """The plane by least squares, if enough of the ground ahead is known."""
+    height = ground.height_m[::2, ::2]  # one of four cells
+    east, north = (place - 0.5 * ground.lattice.cell_m for place in ground.block_centres())
+    forward = ground.ahead[0] * east + ground.ahead[1] * north
+    near, far = p.frontier_m
+    cells = np.flatnonzero((height < 0.5 * UNKNOWN_M) & (forward > near))
+    far_out = np.count_nonzero(forward.ravel()[cells] > far)
+    if cells.size < LEAST_BLOCKS or far_out < LEAST_FAR:
+        return None
+    row, column = np.divmod(cells, len(height))
+    A = np.stack([np.ones(cells.size), east[column], north[row, 0]])
+    normal = A @ A.T + SPREAD * np.eye(3)
+    lifted = height.ravel()[cells] - ground.vehicle_m
+    return Plane(*np.linalg.solve(normal, A @ lifted).tolist())
+
+
+class Floor(NamedTuple):
+    """How low ground may lie, above the plane, in blocks of two by two cells of the profile."""
+
+    over_m: Floats
+    """Shape (m, m); -UNKNOWN_M far from known ground."""
+    corner_m: tuple[float, float]
+    """South-west corner of the first block, from the vehicle."""
+    block_m: float
+
+    def at(self, east: Floats, north: Floats) -> Floats:
+        """The floor at places, from the vehicle, [m]."""
+        scale, count = 1.0 / self.block_m, len(self.over_m)
+        column = np.floor((east - self.corner_m[0]) * scale).astype(np.int64)
+        row = np.floor((north - self.corner_m[1]) * scale).astype(np.int64)
+        inside = (np.minimum(column, row) >= 0) & (np.maximum(column, row) < count)
+        index = np.where(inside, row * count + column, 0)
+        return np.where(inside, self.over_m.ravel().take(index), -UNKNOWN_M)
+
+
+@dataclass
+class Expected:
+    """Where the ground should be that is not known yet, at one tick."""
+
+    ground: GroundProfile
+    plane: Plane
+    parameters: NegativeParameters
+    _floor: Floor | None = None
+
+    @property
+    def floor(self) -> Floor:
+        """Made when it is asked for: where all is flat it never is."""
+        self._floor = self._floor or _floor_of(self.ground, self.plane, self.parameters)
+        return self._floor
+
+    def continues(self, point_m: Floats, near: Bools) -> Bools:
+        """Whether points (3, n), from the vehicle, go on from the known ground, (n,); of `near`
+        ones less is asked."""
+        p, over = self.parameters, self.plane.over(point_m)
+        low = np.flatnonzero(over < -p.doubt_m)
+        goes_on = np.ones(len(over), bool)
+        if low.size:
+            floor = self.floor.at(point_m[0, low], point_m[1, low])
+            nowhere = np.where(near[low], p.doubt_m - p.low_m, UNKNOWN_M)
+            least = np.where(floor > -UNKNOWN_M, floor, nowhere) - p.doubt_m
+            goes_on[low] = over[low] > least
+        return goes_on
+
+
+def expected(ground: GroundProfile, p: NegativeParameters) -> Expected | None:
+    """None where too little is known."""
+    plane = _plane_of(ground, p)
+    return plane and Expected(ground, plane, p)
+
+
+def _floor_of(ground: GroundProfile, plane: Plane, p: NegativeParameters) -> Floor:
+    """The floor around the vehicle."""
+    east, north = ground.block_centres()
+    block_m = 2 * ground.lattice.cell_m
+    level = (ground.vehicle_m + plane.height_m) + plane.rise(east, north)
+    over = _continued(pooled(ground.height_m) - level, block_m, p)
+    corner = float(east[0]) - 0.5 * block_m, float(north[0, 0]) - 0.5 * block_m
+    return Floor(over, corner, block_m)
+
+
+def _continued(over_m: Floats, block_m: float, p: NegativeParameters) -> Floats:
+    """Known blocks as they are, and block by block what lies beside them, bent down."""
+    floor, bent = np.where(over_m < 0.5 * UNKNOWN_M, over_m, -UNKNOWN_M), 0.0
+    for k in range(1, round(p.near_m / block_m) + 1):
+        bend = 0.5 * p.curvature_pm * (k * block_m) ** 2
+        beside = _highest_beside(floor) - (bend - bent)
+        floor, bent = np.where(floor > -0.5 * UNKNOWN_M, floor, beside), bend
+    return np.where(floor > -0.5 * UNKNOWN_M, floor, -UNKNOWN_M)
+
+
+def _highest_beside(cells: Floats) -> Floats:
+    """Highest of each cell and its eight neighbours."""
+    rows = cells.copy()
+    np.maximum(rows[1:], cells[:-1], out=rows[1:])
+    np.maximum(rows[:-1], cells[1:], out=rows[:-1])
+    highest = rows.copy()
+    np.maximum(highest[:, 1:], rows[:, :-1], out=highest[:, 1:])
+    np.maximum(highest[:, :-1], rows[:, 1:], out=highest[:, :-1])
+    return highest
