@@ -7,7 +7,7 @@ import numpy as np
 
 from nav.angles import wrapped
 from nav.fusion.health import Health
-from nav.fusion.lattice import Ints, Lattice
+from nav.fusion.lattice import Ints
 from nav.fusion.obstacle_map import ObstacleMap
 from nav.messages import (
     Command,
@@ -20,7 +20,7 @@ from nav.messages import (
 )
 from nav.parameters import Parameters
 from nav.planning.boundaries import FREE, Cells, boundaries
-from nav.planning.corridor_grid import corridor_distance, edge_levels
+from nav.planning.corridor_grid import CorridorGrid
 from nav.planning.curve import Curve
 from nav.planning.local_path import clear_distances, join_length, route_ahead
 from nav.planning.scanning import Boundaries
@@ -63,7 +63,8 @@ class HighLevelController:
     def __init__(self, parameters: Parameters, waypoints: Waypoints) -> None:
         self.parameters = parameters
         self.waypoints = waypoints
-        self._corridor_m = _with_run_out(waypoints.position_m)
+        self._corridor_grid = _corridor_grid(waypoints, parameters)
+        self._wide_corridor = _corridor_grid(waypoints, parameters)
         self.route: SmoothPath = smooth_path(waypoints)
         self.V0: Floats = speed_profile(self.route, parameters.planning.speed)
         self.machine = Machine(parameters)
@@ -114,7 +115,7 @@ class HighLevelController:
             gps_lost_s=senses.gps_lost_s,
             sonar_m=senses.sonar_m,
             arc_m=here.arc_m,
-            far_goal_m=self._far_goal(boundaries),
+            far_goal_m=self._far_goal(boundaries) if troubled else (0.0, 0.0),
             half_width_m=float(self.waypoints.half_width_m[self._segment]),
             gear=senses.vehicle.gear if senses.vehicle else Gear.HIGH,
             shifting=bool(senses.vehicle and senses.vehicle.shifting),
@@ -178,22 +179,16 @@ class HighLevelController:
         first, last = self._corridor_segments(CORRIDOR_BEHIND, CORRIDOR_AHEAD_M)
         key = (obstacles.origin_m, first, last)
         if self._corridor is None or self._corridor[0] != key:
-            self._corridor = (key, self._edges(obstacles.lattice, first, last))
+            edges = self._corridor_grid.levels(obstacles.lattice, first, last)
+            self._corridor = (key, edges)
         return self._corridor[1]
-
-    def _edges(self, lattice: Lattice, first: int, last: int) -> Cells:
-        foot, width_m = self.parameters.planning.footprint, self.waypoints.half_width_m
-        margin_m = (foot.corridor_safe_m, foot.corridor_real_m, foot.corridor_touch_m)
-        inside = corridor_distance(lattice, self._corridor_m, width_m, first, last)
-        return edge_levels(inside, margin_m)
 
     def _wide(self, ego: EgoEstimate, boundaries: Boundaries) -> Boundaries:
         """The corridor and what is known in it, twice as wide as the map."""
         self._grid = grid = self._grid or WideGrid(boundaries.cell_m)
         grid.update(boundaries, *ego.position_m.tolist())
-        return grid.with_edges(
-            self._edges(grid.lattice, *self._corridor_segments(WIDE_BEHIND, WIDE_M))
-        )
+        segments = self._corridor_segments(WIDE_BEHIND, WIDE_M)
+        return grid.with_edges(self._wide_corridor.levels(grid.lattice, *segments))
 
     def _corridor_segments(self, behind: int, ahead_m: float) -> tuple[int, int]:
         """The first segment that is drawn, and the one after the last."""
@@ -219,6 +214,12 @@ class HighLevelController:
             speed_mps=plan.speed_mps,
             cross_track_m=s.cross_track_m,
         )
+
+
+def _corridor_grid(waypoints: Waypoints, parameters: Parameters) -> CorridorGrid:
+    foot = parameters.planning.footprint
+    margin_m = (foot.corridor_safe_m, foot.corridor_real_m, foot.corridor_touch_m)
+    return CorridorGrid(_with_run_out(waypoints.position_m), waypoints.half_width_m, margin_m)
 
 
 def _with_run_out(position_m: Floats) -> Floats:

@@ -5,7 +5,6 @@ import pytest
 
 from nav.errors import NavError
 from nav.planning.boundaries import FREE, REAL, SAFE, TOUCH, boundaries
-from nav.planning.corridor_grid import edge_levels
 
 COUNT, CELL_M = 60, 0.2
 
@@ -40,19 +39,6 @@ def test_no_obstacle_is_all_free() -> None:
     found = boundaries(np.array([], np.int64), COUNT, CELL_M, (1.5, 0.95))
     assert found.dtype == np.uint8
     assert np.all(found == FREE)
-
-
-def test_the_corridor_adds_to_its_boundary() -> None:
-    inside_m = np.full((COUNT, COUNT), 2.0, np.float32)
-    inside_m[:, :8], inside_m[:, :5] = 1.0, 0.0
-    obstacle = boundaries(np.array([30 * COUNT + 40]), COUNT, CELL_M, (0.8, 0.4))
-    found = np.maximum(obstacle, edge_levels(inside_m, (1.2, 0.9)))
-    assert list(found[10, 3:10]) == [REAL, REAL, SAFE, SAFE, SAFE, FREE, FREE]
-    assert list(found[30, 35:41]) == [FREE, SAFE, SAFE, REAL, REAL, REAL]
-
-
-def test_a_cell_on_the_edge_is_inside_all_boundaries() -> None:
-    assert np.all(edge_levels(np.zeros((3, 3), np.float32), (1.2, 0.9, 0.7)) == TOUCH)
 
 
 def test_its_arguments_are_left_alone() -> None:

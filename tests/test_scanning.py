@@ -7,7 +7,6 @@ from nav.fusion.lattice import Lattice
 from nav.parameters.loader import from_toml
 from nav.parameters.planning import PlanningParameters
 from nav.planning.boundaries import REAL, SAFE, TOUCH
-from nav.planning.corridor_grid import corridor_distance
 from nav.planning.scanning import Boundaries, Turning, fan, free_distance, scan
 from scenarios.parameter_files import parameter_texts
 
@@ -90,13 +89,3 @@ def test_vehicle_leaves_the_real_boundary_by_the_soonest_way():
     np.testing.assert_array_equal(
         free_distance(level, arc, REAL, P.footprint), [arc[-1], arc[-1], 0.0]
     )
-
-
-def test_corridor_depth_is_half_width_less_distance():
-    points = np.array([[-20.0, 0.0], [20.0, 0.0]])
-    depth = corridor_distance(LATTICE, points, np.array([4.0, 4.0]), 0, 1)
-    centre = LATTICE.origin_m[0] + (np.arange(320) + 0.5) * LATTICE.cell_m
-    column = depth[:, 160]
-    near = np.abs(centre) < 3.9
-    np.testing.assert_allclose(column[near], 4.0 - np.abs(centre[near]), atol=1e-5)
-    assert (column[np.abs(centre) > 4.2] < 0.0).all()

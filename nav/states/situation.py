@@ -39,7 +39,7 @@ class Situation:
     arc_m: float = 0.0
     """Way along the route so far."""
     far_goal_m: tuple[float, float] = (0.0, 0.0)
-    """The farthest point of the smooth path on the map that is free."""
+    """In trouble: the farthest point of the smooth path on the wide grid that is free."""
     half_width_m: float = 0.0
     """Of the corridor here."""
     gear: Gear = Gear.HIGH
