@@ -49,11 +49,12 @@ def route_ahead(
     end = int(np.searchsorted(route.arc_m, float(route.arc_m[first]) + look_ahead_m)) + 1
     part = slice(first, max(end, first + 2))
     position, heading = route.position_m[part], route.heading_rad[part]
-    if join_m > 0.0:
-        e = _join(route.arc_m[part] - route.arc_m[first], offset_m, turned_rad, join_m)
-        left: Floats = np.array([-np.sin(heading), np.cos(heading)]).T
-        position = position + e[:, None] * left
-    return sampled(position)
+    arc = route.arc_m[part] - route.arc_m[first]
+    if join_m <= 0.0:
+        return Curve(position, heading, route.curvature_per_m[part], arc)
+    e = _join(arc, offset_m, turned_rad, join_m)
+    left: Floats = np.array([-np.sin(heading), np.cos(heading)]).T
+    return sampled(position + e[:, None] * left)
 
 
 def join_length(
