@@ -81,6 +81,17 @@ def test_vehicle_inside_a_boundary_may_leave_it_but_not_cross_a_wall():
         assert free_distance(level, arc, REAL, P.footprint)[0] == 0.0
 
 
+def test_boundaries_envelop_each_other_also_for_who_leaves_one():
+    """Out of the safe boundary in time, but through the real one meanwhile."""
+    curves = fan(P.scanning, P.footprint, SLOW)
+    nose = max(P.footprint.disc_x_m)
+    inside = boundaries((-3.0, nose + 1.6, -9, 9, SAFE), (nose + 0.9, nose + 1.5, -9, 9, REAL))
+    found = scan(curves, inside, P.footprint, 0.0, 0.0, 0.0)
+    assert (found.safe_m <= found.real_m).all()
+    assert (found.real_m <= found.touch_m).all()
+    assert found.real_m[len(found.real_m) // 2] == pytest.approx(1.0, abs=P.scanning.step_m)
+
+
 def test_vehicle_leaves_the_real_boundary_by_the_soonest_way():
     arc = np.arange(0.0, 10.0, 0.5)
     level = np.zeros((3, 20), np.uint8)

@@ -26,8 +26,8 @@ def world(*blocks):
     return Boundaries(level, (-32.0, -32.0), 0.2)
 
 
-def found(goal, *blocks):
-    s = search(P, (0.0, 0.0, 0.0), [goal], world(*blocks))
+def found(goal, *blocks, back_first=False):
+    s = search(P, (0.0, 0.0, 0.0), [goal], world(*blocks), back_first)
     while s.found is None and not s.exhausted:
         s.advance()
     return s
@@ -47,6 +47,12 @@ def driven(way):
 
 def test_where_forward_is_free_nothing_is_to_be_done():
     assert found((20.0, 0.0)).found == ()
+
+
+def test_where_forward_was_in_vain_the_way_out_begins_backwards():
+    way = found((20.0, 0.0), back_first=True).found
+    assert way
+    assert way[0].gear == Gear.REVERSE
 
 
 @pytest.mark.parametrize(

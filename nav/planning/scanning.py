@@ -145,8 +145,11 @@ def scan(
     c, s = cos(heading_rad) * per_m, sin(heading_rad) * per_m
     u, v = curves.disc_m
     level = boundaries.of_cells(column + c * u - s * v, row + s * u + c * v).max(axis=0)
-    arc, three = curves.arc_m, (SAFE, REAL, TOUCH)
-    return Distances(*(free_distance(level, arc, b, footprint) for b in three))
+    safe, real, touch = (
+        free_distance(level, curves.arc_m, boundary, footprint) for boundary in (SAFE, REAL, TOUCH)
+    )
+    real = np.minimum(real, touch)  # who leaves an outer boundary may meet an inner one meanwhile
+    return Distances(np.minimum(safe, real), real, touch)
 
 
 def free_distance(

@@ -80,6 +80,8 @@ class Search:
     arcs: Arcs
     exits: Fan
     """Directions that are tried from each pose."""
+    back_first: bool = False
+    """Whether the first operation has to lead back: forward has been tried in vain from here."""
     found: tuple[Arc, ...] | None = None
     """The operations, once they are known; empty where forward is free already."""
     exhausted: bool = False
@@ -103,11 +105,16 @@ class Search:
             if self.exhausted or self.found is not None:
                 return
             node = heappop(self._open)
-            goal = target(self.way, node.pose[:2], self.parameters.exit_m)
-            if exit_is_free(self.exits, node.pose, goal, self.boundaries, self.planning):
+            if self._leads_out(node):
                 self.found = node.way
                 return
             self._expand(node)
+
+    def _leads_out(self, node: _Node) -> bool:
+        if self.back_first and not node.way:
+            return False
+        goal = target(self.way, node.pose[:2], self.parameters.exit_m)
+        return exit_is_free(self.exits, node.pose, goal, self.boundaries, self.planning)
 
     def _expand(self, node: _Node) -> None:
         place, turned = placed(node.pose, self.arcs.position_m, self.arcs.heading_rad)
@@ -115,6 +122,8 @@ class Search:
         free = free_distance(level, self.arcs.arc_m, TOUCH, self.planning.footprint)
         tight = np.cumsum(level >= REAL, axis=1) * STEP_M
         for row, gear in enumerate(self.arcs.gear):
+            if self.back_first and not node.way and gear != Gear.REVERSE:
+                continue
             for length in self.parameters.lengths_m:
                 if length + self.parameters.margin_m > free[row]:
                     break
@@ -159,11 +168,15 @@ def radius_m(p: Parameters) -> float:
 
 
 def search(
-    p: Parameters, start: Pose, way: Sequence[tuple[float, float]], boundaries: Boundaries
+    p: Parameters,
+    start: Pose,
+    way: Sequence[tuple[float, float]],
+    boundaries: Boundaries,
+    back_first: bool = False,
 ) -> "Search":
     """A search that has not begun yet."""
     curves = arcs(p.planning.operations, radius_m(p))
-    return Search(start, tuple(way), boundaries, p.planning, curves, exits(p))
+    return Search(start, tuple(way), boundaries, p.planning, curves, exits(p), back_first)
 
 
 def _length_m(way: tuple[Arc, ...]) -> float:

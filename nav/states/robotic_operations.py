@@ -35,9 +35,12 @@ def plan(s: Situation, memory: Memory, p: Parameters) -> Plan:
 
 
 def _begin(s: Situation, memory: Memory, p: Parameters) -> Manoeuvre:
-    memory.trouble.tries += 1
-    memory.trouble.look(s, p.states.stuck)
-    return Manoeuvre(search(p, s.pose, memory.trouble.way or [s.far_goal_m], s.boundaries))
+    trouble = memory.trouble
+    trouble.tries += 1
+    trouble.look(s, p.states.stuck)
+    way = trouble.way or [s.far_goal_m]
+    # beside an obstacle, what seems free to operations need not be to the speed rules
+    return Manoeuvre(search(p, s.pose, way, s.boundaries, back_first=trouble.tries % 2 == 0))
 
 
 def _free_m(s: Situation, arc: Arc, p: Parameters) -> float:
