@@ -13,10 +13,12 @@ from nav.messages import (
     GpsQuality,
     ImuSample,
     LidarScan,
+    RadarTracks,
     SonarScan,
     VehicleState,
 )  # fmt: skip
 from twin.earth import to_world
+from twin.faults import Fault
 from twin.sensors.gps import hdop
 from twin.sensors.imu import tilt_of
 from twin.sensors.parameters import SensorParameters, sensor_parameters
@@ -50,6 +52,7 @@ class FakeView:
         ("lidar_roof", (1.3, 0.0, 1.9), 0.0),
         ("lidar_left", (1.9, 0.7, 0.75), 0.8),
         ("lidar_right", (1.9, -0.7, 0.75), -0.8),
+        ("radar", (2.05, 0.0, 0.4), 0.0),
         ("sonar_front_left", (2.05, 0.45, 0.7), 0.0),
         ("sonar_front_right", (2.05, -0.45, 0.7), 0.0),
         ("sonar_left_front", (1.6, 0.7, 0.7), 0.5 * np.pi),
@@ -99,8 +102,8 @@ def parameters(**changes):
     return msgspec.convert(raw, SensorParameters)
 
 
-def make_suite(seed=0, obstacles=(), disabled=frozenset(), p=None):
-    world = World(Flat(), tuple(obstacles), 0.7, ANCHOR, (0.0, 0.0, 0.0), SKY)
+def make_suite(seed=0, obstacles=(), disabled=frozenset(), p=None, faults=()):
+    world = World(Flat(), tuple(obstacles), 0.7, ANCHOR, (0.0, 0.0, 0.0), SKY, tuple(faults))
     sight = Sight(world)
     sight.set_ground(np.zeros((360, 360)), -90.0, -90.0, 0.5)
     return SensorSuite(world, sight, seed, frozenset(disabled), p)
@@ -131,7 +134,8 @@ def wall(x, y, half=(0.1, 3.0, 2.0)):
 
 
 def only(*kept):
-    names = {*sensor_parameters().lidar.units, "sonar", "gps", "imu", "compass", "odometry"}
+    names = {*sensor_parameters().lidar.units, "sonar", "radar"}
+    names |= {"gps", "imu", "compass", "odometry"}
     return names - set(kept)
 
 
@@ -140,8 +144,8 @@ def only(*kept):
 
 @pytest.mark.parametrize(
     ("kind", "a_second", "delay_steps"),
-    [(LidarScan, 150, 8), (SonarScan, 20, 8), (GpsFix, 20, 15), (ImuSample, 100, 1),
-     (CompassHeading, 10, 6), (VehicleState, 50, 3)],
+    [(LidarScan, 150, 8), (SonarScan, 20, 8), (RadarTracks, 15, 20), (GpsFix, 20, 15),
+     (ImuSample, 100, 1), (CompassHeading, 10, 6), (VehicleState, 50, 3)],
 )  # fmt: skip
 def test_rates_and_delays(kind, a_second, delay_steps):
     suite, view = make_suite(), FakeView()
@@ -160,7 +164,7 @@ def test_lidars_take_turns():
 
 
 def test_order_within_a_step_is_fixed():
-    order = [LidarScan, SonarScan, GpsFix, ImuSample, CompassHeading, VehicleState]
+    order = [LidarScan, SonarScan, RadarTracks, GpsFix, ImuSample, CompassHeading, VehicleState]
     heard = run(make_suite(), FakeView(), SECOND)
     ranks = [(k, order.index(type(m))) for k, m in heard]
     assert ranks == sorted(ranks)
@@ -175,8 +179,8 @@ def test_a_rate_that_does_not_divide_is_refused():
 
 
 def test_unknown_names_are_refused():
-    with pytest.raises(ValueError, match=r"no sensor 'radar'; known are lidar_bumper, .*odometry"):
-        make_suite(disabled={"radar"})
+    with pytest.raises(ValueError, match=r"no sensor 'sodar'; known are lidar_bumper, .*odometry"):
+        make_suite(disabled={"sodar"})
     with pytest.raises(msgspec.ValidationError, match=r"rate_herz.*\$\.gps"):
         parameters(gps={"rate_herz": 1.0})
 
@@ -207,10 +211,11 @@ def test_every_float_differs_between_seeds():
 
 
 def test_a_disabled_sensor_changes_no_other():
-    suppressed = drive(3, {"gps", "lidar_roof", "sonar"})
+    suppressed = drive(3, {"gps", "lidar_roof", "sonar", "radar"})
     kept = [
         (k, m) for k, m in drive(3)
-        if not isinstance(m, GpsFix | SonarScan) and getattr(m, "sensor", "") != "lidar_roof"
+        if not isinstance(m, GpsFix | SonarScan | RadarTracks)
+        and getattr(m, "sensor", "") != "lidar_roof"
     ]  # fmt: skip
     assert len(suppressed) == len(kept)
     for (_, a), (_, b) in zip(suppressed, kept, strict=True):
@@ -284,6 +289,118 @@ def test_sonar_hears_the_ground_only_where_it_meets_it_steeply(pitch, echoes):
     view.SITES = tuple((n, (p[0], p[1], p[2] + 2.5), y) for n, p, y in view.SITES)
     scan = of(run(suite, view, 30), SonarScan)[0]
     assert (scan.range_m[0] < 4.0) == echoes
+
+
+# ---------------------------------------------------------------- radar
+
+
+def post(x, y, name="post", kind="gate_post"):
+    return Obstacle(name, kind, "cylinder", (x, y, 0.6), (0.075, 0.075, 0.6))
+
+
+def tracks(obstacles, steps=40, seed=1, view=None, **more):
+    """What the radar says in so many steps, as it drives at 5 m/s."""
+    p = more.pop("p", parameters(mounting=EXACT))
+    suite = make_suite(seed, obstacles, only("radar"), p, **more)
+    return of(run(suite, view or FakeView(5.0), steps), RadarTracks)
+
+
+class Running(FakeView):
+    """Keeps its place while it goes at 5 m/s: wheels on rollers, as it were."""
+
+    def __init__(self):
+        super().__init__(0.0)
+
+    def site_velocity(self, name):
+        return np.array([5.0, 0.0, 0.0]), np.zeros(3)
+
+
+def errors_of_tracks(steps=60 * SECOND):
+    """Errors of a post's tracks: of range and rate as a share, of azimuth in [rad]."""
+    said = tracks([wall(42.05, 1.0, (1.0, 0.075, 0.6))], steps, view=Running())
+    far, bearing = np.hypot(39.0, 1.0), np.arctan2(1.0, 39.0)
+    return (
+        np.array([m.range_m[0] / far - 1.0 for m in said]),
+        np.array([m.azimuth_rad[0] - bearing for m in said]),
+        np.array([m.range_rate_mps[0] / (-5.0 * np.cos(bearing)) - 1.0 for m in said]),
+    )
+
+
+def test_radar_errors_stay_within_the_published_bounds_and_are_as_large_as_said():
+    for error, bound in zip(errors_of_tracks(), (0.05, np.radians(0.2), 0.01), strict=True):
+        rays = 1.5e-3  # the ray that met the post is not quite the one to its nearest point
+        assert np.abs(error).max() < bound + rays
+        assert error.std() == pytest.approx(bound / 3.0, rel=0.1)
+        assert error.mean() == pytest.approx(0.0, abs=0.1 * bound + rays)
+
+
+def test_radar_range_error_is_three_feet_where_that_is_more_than_a_share():
+    near, far = (
+        np.array([m.range_m[0] for m in tracks([wall(x, 0.0)], 9000, view=Running())])
+        for x in (12.15, 62.15)
+    )
+    assert near.std() == pytest.approx(0.914 / 3.0, rel=0.12)
+    assert far.std() == pytest.approx(0.05 * 60.0 / 3.0, rel=0.12)
+
+
+def test_radar_left_is_positive_and_what_comes_nearer_has_a_negative_rate():
+    left, right = tracks([post(30.0, 2.0)])[0], tracks([post(30.0, -2.0)])[0]
+    assert left.azimuth_rad[0] == pytest.approx(np.arctan2(2.0, 27.9), abs=0.005)
+    assert right.azimuth_rad[0] == pytest.approx(-np.arctan2(2.0, 27.9), abs=0.005)
+    assert left.range_rate_mps[0] == pytest.approx(-5.0, rel=0.02)
+    away = tracks([post(30.0, 0.0)], view=FakeView(-5.0))[0]
+    assert away.range_rate_mps[0] == pytest.approx(5.0, rel=0.02)
+
+
+def test_radar_tells_of_the_seven_nearest_things_the_nearest_first():
+    posts = [post(15.0 + 1.5 * k, 0.15 * (k - 4), f"post{k}") for k in range(9)]
+    said = tracks(posts, view=Running(), p=parameters(
+        mounting=EXACT, radar={"range_error_m": 1e-6, "range_error_share": 0.0}
+    ))[0]  # fmt: skip
+    assert len(said.range_m) == len(said.azimuth_rad) == len(said.range_rate_mps) == 7
+    expected = [12.95 + 1.5 * k - 0.075 for k in range(7)]
+    np.testing.assert_allclose(said.range_m, expected, atol=0.08)
+
+
+def test_a_car_is_one_track_at_its_nearest_point():
+    said = tracks([wall(32.05, 0.0, (2.0, 0.9, 0.7))], view=Running())
+    assert {len(m.range_m) for m in said} == {1}
+    assert np.mean([m.range_m[0] for m in said]) == pytest.approx(28.0, abs=0.9)
+
+
+@pytest.mark.parametrize("place", [(20.0, 3.0), (20.0, -3.0), (-20.0, 0.0), (130.0, 0.0)])
+def test_nothing_outside_the_radars_view_is_a_track(place):
+    assert all(len(m.range_m) == 0 for m in tracks([post(*place)], view=Running()))
+
+
+@pytest.mark.parametrize("kind", ["rumble_strip", "brush"])
+def test_radar_rejects_ground_and_what_lies_on_it_and_passes_brush(kind):
+    thing = Obstacle("thing", kind, "box", (20.0, 0.0, 0.5), (1.0, 1.0, 0.5))
+    assert all(len(m.range_m) == 0 for m in tracks([thing], view=FakeView(5.0, pitch=0.05)))
+
+
+def test_a_post_hides_what_stands_right_behind_it():
+    assert len(tracks([post(10.0, 0.0), post(30.0, 0.0, "behind")])[0].range_m) == 1
+
+
+def test_a_doppler_radar_hears_nothing_at_a_stand():
+    said = tracks([post(20.0, 0.0)], SECOND, view=FakeView(0.0))
+    assert len(said) == 14
+    assert all(len(m.range_m) == 0 for m in said)
+
+
+def test_radar_is_the_same_for_a_seed_and_other_for_another():
+    a, same, other = (tracks([post(20.0, 1.0)], SECOND, seed) for seed in (1, 1, 2))
+    np.testing.assert_array_equal([floats(m) for m in a], [floats(m) for m in same])
+    assert (np.array([floats(m) for m in a]) != np.array([floats(m) for m in other])).all()
+
+
+def test_a_radar_that_fails_is_silent_until_it_is_reset():
+    fault = Fault("radar", "silent", 0.0, recovers_s=0.5)
+    suite, view = make_suite(1, [], only("radar"), None, [fault]), FakeView(5.0)
+    assert run(suite, view, SECOND) == []
+    suite.faults.reset(10**9, "radar")
+    assert len(run(suite, view, SECOND)) > 5
 
 
 # ---------------------------------------------------------------- gps

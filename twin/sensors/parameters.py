@@ -47,6 +47,27 @@ class SonarParameters(Timing, frozen=True):
     ground_echo_rad: float
 
 
+class RadarParameters(Timing, frozen=True):
+    """Eaton VORAD EVT-300."""
+
+    half_beam_rad: float
+    rows_rad: tuple[float, ...]
+    """Elevations of the rays."""
+    rays: int
+    """In each row."""
+    max_range_m: float
+    max_tracks: int
+    min_rate_mps: float
+    """What comes or goes more slowly is not heard."""
+    range_error_m: float
+    range_error_share: float
+    """The larger of the two bounds the error."""
+    rate_error_share: float
+    azimuth_error_rad: float
+    bound_sigmas: float
+    """So many sigma are those bounds; what is drawn beyond ends there."""
+
+
 class GpsParameters(Timing, frozen=True):
     """NovAtel ProPak-LB with OmniSTAR HP."""
 
@@ -119,6 +140,8 @@ class SensorParameters(_Strict, frozen=True):
     imu: ImuParameters
     compass: CompassParameters
     odometry: OdometryParameters
+    radar: RadarParameters | None = None
+    """None for a vehicle without."""
     road_camera: RoadCameraParameters | None = None
     """None for a vehicle without."""
 

@@ -11,6 +11,8 @@ from twin.sensors.parameters import MountingParameters, Timing
 from twin.truth import Applied
 
 Floats = NDArray[np.float64]
+Ints = NDArray[np.signedinteger]
+Bools = NDArray[np.bool_]
 
 
 class View(Protocol):

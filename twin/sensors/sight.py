@@ -55,7 +55,9 @@ class Sight:
     """All that beams can meet. The ground is replaced as the vehicle moves."""
 
     def __init__(self, world: World) -> None:
-        self.solid = Scene([o for o in world.obstacles if o.kind not in OPACITY])
+        self.things = [o for o in world.obstacles if o.kind not in OPACITY]
+        """What is solid, as `cast_hits` numbers it."""
+        self.solid = Scene(self.things)
         hides = any(o.kind in OPACITY for o in world.obstacles)
         self.veil = Veil(world) if hides else None
         """None where everything is solid."""

@@ -12,6 +12,7 @@ from twin.sensors.imu import Imu
 from twin.sensors.lidar import Lidar
 from twin.sensors.odometry import Odometry
 from twin.sensors.parameters import SensorParameters, sensor_parameters
+from twin.sensors.radar import Radar
 from twin.sensors.road_camera import RoadCamera
 from twin.sensors.sensor import Sensor, View
 from twin.sensors.sight import Sight
@@ -67,6 +68,7 @@ def _sensors(world: World, sight: Sight, seed: int, p: SensorParameters) -> list
     return [
         *(Lidar(unit, sight, seed, p.lidar, p.mounting) for unit in p.lidar.units),
         Sonar(sight, seed, p.sonar, p.mounting),
+        *([Radar(sight, seed, p.radar, p.mounting)] if p.radar else []),
         Gps(world, sight.solid, seed, p.gps, p.mounting),
         Imu(seed, p.imu),
         Compass(seed, p.compass),
