@@ -108,9 +108,9 @@ def _check_ablations(names: tuple[str, ...], source: Source) -> None:
         from scenarios.ablation import disabled_sensors
         from scenarios.vehicles import VEHICLES
 
-        lidars = VEHICLES[source.course(0).vehicle].lidars
+        vehicle = VEHICLES[source.course(0).vehicle]
         try:
-            disabled_sensors(names, lidars)
+            disabled_sensors(names, vehicle.lidars, vehicle.radars)
         except ValueError as error:
             raise UsageError(str(error)) from error
 

@@ -12,7 +12,7 @@ from typing import Any
 
 import numpy as np
 
-from nav.messages import Floats, LidarScan, SensorMessage, device
+from nav.messages import Floats, LidarScan, RadarTracks, SensorMessage, device
 
 FUTURE_NS = 50_000_000
 """A message may be this much ahead of the call's time (clocks of the truck's devices)."""
@@ -33,10 +33,16 @@ def _finite(message: SensorMessage) -> bool:
     return True
 
 
+def _even(tracks: RadarTracks) -> bool:
+    """Whether each track has a range, an azimuth and a rate."""
+    shape = tracks.range_m.shape
+    return len(shape) == 1 and shape == tracks.azimuth_rad.shape == tracks.range_rate_mps.shape
+
+
 @dataclass
 class Admission:
     """Drops messages that are not finite, too old, from the future, backward in time, or of a
-    scanner that the vehicle does not have."""
+    scanner that the vehicle does not have; and tracks that lack a number."""
 
     stale_ns: int
     scanners: tuple[str, ...]
@@ -61,6 +67,8 @@ class Admission:
     def _fault(self, now_ns: int, message: SensorMessage, source: str) -> str:
         if isinstance(message, LidarScan) and source not in self.scanners:
             return "unknown scanner"
+        if isinstance(message, RadarTracks) and not _even(message):
+            return "uneven"
         if not _finite(message):
             return "not finite"
         if now_ns - message.time_ns > self.stale_ns:

@@ -10,6 +10,7 @@ from nav.fusion.confirmation import confirmed_m
 from nav.fusion.ego_state import EgoState
 from nav.fusion.health import HealthMonitor
 from nav.fusion.obstacle_map import ObstacleMap
+from nav.fusion.radar import Echoes, echoes
 from nav.fusion.scan_geometry import Pose
 from nav.high_level import HighLevelController, Senses
 from nav.messages import (
@@ -17,11 +18,13 @@ from nav.messages import (
     LidarScan,
     ObstacleCells,
     Outputs,
+    RadarTracks,
     Report,
     RoadEstimate,
     SensorMessage,
     SonarScan,
     VehicleState,
+    device,
 )
 from nav.parameters import Parameters
 from nav.route.rddf import Route
@@ -56,12 +59,14 @@ class IonNavigator:
             name: deque[LidarScan](maxlen=newest) for name in parameters.vehicle.lidar_mounts
         }
         self._sonar: SonarScan | None = None
+        self._tracks: RadarTracks | None = None
         self._vehicle: VehicleState | None = None
         self._road: RoadEstimate | None = None
         self._newest: dict[str, LidarScan] = {}
         self._ready_ns: int | None = None
         health = parameters.states.health
-        self.health = HealthMonitor(health, (*parameters.vehicle.lidar_mounts, *health.devices))
+        sensors = (*parameters.vehicle.lidar_mounts, *health.devices)
+        self.health = HealthMonitor(health, sensors, tuple(parameters.vehicle.radars))
 
     @property
     def state(self) -> str:
@@ -84,6 +89,9 @@ class IonNavigator:
             return
         if isinstance(message, SonarScan):
             self._sonar = message
+            return
+        if isinstance(message, RadarTracks):
+            self._tracks = message
             return
         if isinstance(message, RoadEstimate):
             self._road = message
@@ -128,10 +136,17 @@ class IonNavigator:
         """Bring the map up to date with all scans since the last decision."""
         x, y = (float(v) for v in ego.position_m)
         self.obstacles.recenter(x, y)
-        self.obstacles.integrate(self._scans_with_poses())
+        self.obstacles.integrate(self._scans_with_poses(), self._echoes(time_ns))
         if self._sonar and _is_fresh(self._sonar.time_ns, time_ns):
             pose = self.ego.pose_at(self._sonar.time_ns)
             self.obstacles.integrate_sonar(self._sonar.range_m, pose)
+
+    def _echoes(self, time_ns: int) -> Echoes | None:
+        """The newest tracks, if they are fresh and the vehicle knows where its radar sits."""
+        tracks, radars = self._tracks, self.parameters.vehicle.radars
+        if tracks is None or not radars or not _is_fresh(tracks.time_ns, time_ns):
+            return None
+        return echoes(tracks, radars[device(tracks)], self.ego.pose_at(tracks.time_ns))
 
     def _scans_with_poses(self) -> list[tuple[LidarScan, Pose]]:
         """The newest scans of each scanner since the last decision, oldest first."""

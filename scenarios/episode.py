@@ -41,7 +41,8 @@ class Episode:
         route = rddf.parse(course.route_text, course.route_name)
         vehicle = VEHICLES[course.vehicle]
         self.navigator = IonNavigator(nav_parameters or parameters_of(course.vehicle), route)
-        self.simulator = vehicle.twin(course.world, seed, disabled_sensors(ablate, vehicle.lidars))
+        silent = disabled_sensors(ablate, vehicle.lidars, vehicle.radars)
+        self.simulator = vehicle.twin(course.world, seed, silent)
         path = self.navigator.high_level.route
         self.judge = Judge(course, outline=vehicle.outline, path=path)
         self.digest = Digest()

@@ -6,7 +6,7 @@ from typing import Protocol
 
 from nav.messages import ActuatorTargets, SensorMessage
 from nav.parameters import ION
-from scenarios.ablation import LIDARS
+from scenarios.ablation import LIDARS, RADARS
 from scenarios.verdicts.shapes import Outline
 from twin import pioneer
 from twin.dubins import DubinsSimulator, dubins_parameters
@@ -46,7 +46,9 @@ class Vehicle:
     """What the judge measures clearance from."""
     height_m: float = 1.98
     lidars: tuple[str, ...] = LIDARS
-    """The names of its scanners."""
+    """The names of its scanners ..."""
+    radars: tuple[str, ...] = RADARS
+    """... and of its radars."""
 
 
 DUBINS = "dubins"
@@ -55,7 +57,9 @@ _DISC = Outline(0.0, 0.0, 0.0, dubins_parameters().drive.disc_radius_m)
 
 VEHICLES = {
     ION: Vehicle(Simulator, Outline()),
-    DUBINS: Vehicle(DubinsSimulator, _DISC, lidars=("lidar_field",)),
-    "pioneer": Vehicle(pioneer.simulator, Outline(0.254, -0.254, 0.2485), 0.46, ("lidar_deck",)),
+    DUBINS: Vehicle(DubinsSimulator, _DISC, lidars=("lidar_field",), radars=()),
+    "pioneer": Vehicle(
+        pioneer.simulator, Outline(0.254, -0.254, 0.2485), 0.46, ("lidar_deck",), radars=()
+    ),
 }
 """By the name that a course gives, which is also that of the navigator's parameter file."""

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from nav.admission import Admission
-from nav.messages import CompassHeading, ImuSample, LidarScan, SonarScan
+from nav.messages import CompassHeading, ImuSample, LidarScan, RadarTracks, SonarScan
 
 NOW = 10_000_000_000
 SCANNERS = ("lidar_left", "lidar_right", "a", "b")
@@ -34,12 +34,22 @@ def test_good_messages_pass_in_order():
         (compass(NOW - 600_000_000), "stale"),
         (compass(NOW + 60_000_000), "from the future"),
         (scan("lidar_of_another_truck"), "unknown scanner"),
+        (RadarTracks(NOW, [20.0, 30.0], [0.1], [-5.0, -5.0]), "uneven"),
+        (RadarTracks(NOW, [20.0], [0.1], []), "uneven"),
+        (RadarTracks(NOW, [[20.0]], [[0.1]], [[-5.0]]), "uneven"),
+        (RadarTracks(NOW, 20.0, 0.1, -5.0), "uneven"),
+        (RadarTracks(NOW, [20.0], [float("nan")], [-5.0]), "not finite"),
     ],
 )
 def test_bad_messages_are_dropped_and_counted(message, reason):
     gate = Admission(500_000_000, SCANNERS)
     assert list(gate.admit(NOW, [message])) == []
     assert gate.dropped == {reason: 1}
+
+
+def test_a_radar_may_have_no_track():
+    empty = RadarTracks(NOW, [], [], [])
+    assert Admission(500_000_000, SCANNERS).admit(NOW, [empty]) == [empty]
 
 
 def test_time_going_backwards_is_dropped_per_source():

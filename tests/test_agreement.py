@@ -25,6 +25,15 @@ def test_sonars_come_in_the_same_order_with_the_same_range():
     assert SENSORS.sonar.max_range_m == VEHICLE.sonar.max_range_m
 
 
+def test_the_radar_is_as_wrong_as_the_map_believes():
+    assert list(VEHICLE.radars) == ["radar"]
+    twin, nav = SENSORS.radar, VEHICLE.radars["radar"]
+    assert twin.range_error_m == nav.range_error_m
+    assert twin.range_error_share == nav.range_error_share
+    brackets = 2.0 * SENSORS.mounting.angle_sd_rad
+    assert twin.azimuth_error_rad + brackets < nav.azimuth_error_rad
+
+
 def test_both_map_the_earth_alike():
     anchor = (34.09, -117.50)
     xy = np.random.default_rng(1).uniform(-20_000, 20_000, (50, 2))

@@ -275,7 +275,7 @@ def test_the_compass_counts_from_east_within_half_a_turn():
 
 @pytest.mark.parametrize("ablation", ["blind", "no-lidar", "no-gps", "no-compass", "no-odometry"])
 def test_ablations_silence_what_the_point_has(ablation):
-    silent = disabled_sensors((ablation,), VEHICLES["dubins"].lidars)
+    silent = disabled_sensors((ablation,), VEHICLES["dubins"].lidars, ())
     gone = {type(m) for m in driven(simulator(), 10)[1]}
     gone -= {type(m) for m in driven(simulator(disabled=silent), 10)[1]}
     names = {"no-gps": GpsFix, "no-compass": CompassHeading, "no-odometry": VehicleState}

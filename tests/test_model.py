@@ -41,6 +41,8 @@ def mounts():
         yield name, m.position_m, (m.yaw_rad, m.pitch_rad, m.roll_rad)
     for name, m in TABLE.sonar_mounts.items():
         yield f"sonar_{name}", m.position_m, (m.yaw_rad, 0.0, 0.0)
+    for name, m in TABLE.radars.items():
+        yield name, m.position_m, (m.yaw_rad, 0.0, 0.0)
     yield "gps", TABLE.gps_position_m, (0.0, 0.0, 0.0)
     yield "imu", TABLE.imu_position_m, (0.0, 0.0, 0.0)
     yield "reference", (0.0, 0.0, 0.0), (0.0, 0.0, 0.0)

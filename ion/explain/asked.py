@@ -87,4 +87,5 @@ def _needs_scans(log: Path) -> bool:
     if vehicle is None:
         return True
     ablate = tuple(said.get("ablate", "").split())
-    return not set(vehicle.lidars) <= disabled_sensors(ablate, vehicle.lidars)
+    silent = disabled_sensors(ablate, vehicle.lidars, vehicle.radars)
+    return not set(vehicle.lidars) <= silent

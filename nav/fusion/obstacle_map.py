@@ -4,6 +4,7 @@ A cell gains confidence from returns above the ground profile. It loses confiden
 quickly where a beam passes through it no higher than its known top, slowly where a beam ends at
 its distance but not in it (a wall seen from a pose that has drifted since). What no beam reaches
 keeps its confidence, so blind corners persist, and so does what is lower than the level beams.
+Returns near a track of the radar gain more (`radar`), and echoes of sonars gain by themselves.
 Drops enter the same cells (`negative_obstacles`), and lose where steep beams meet ground.
 """
 
@@ -21,6 +22,7 @@ from nav.fusion.expected_ground import Bools, Expected, expected
 from nav.fusion.ground_profile import GroundProfile
 from nav.fusion.lattice import Ints, Lattice
 from nav.fusion.negative_obstacles import NOTHING, drops
+from nav.fusion.radar import Echoes
 from nav.fusion.scan_geometry import (
     Pose,
     Scans,
@@ -145,8 +147,11 @@ class ObstacleMap:
         self.lattice = to
         self.ground.recentre(x_m, y_m)
 
-    def integrate(self, scans: Sequence[tuple[LidarScan, Pose]]) -> None:
-        """Take in the scans of one tick, oldest first, each with the estimate at its time.
+    def integrate(
+        self, scans: Sequence[tuple[LidarScan, Pose]], echoes: Echoes | None = None
+    ) -> None:
+        """Take in the scans of one tick, oldest first, each with the estimate at its time; and
+        what the radar tells meanwhile, if it does.
 
         Raises:
             NavError: a scan of a scanner that the vehicle does not have.
@@ -161,7 +166,8 @@ class ObstacleMap:
         steep = [scan.sensor for scan, _ in chosen if scan.sensor in self._teachers]
         expect = expected(self.ground, self._negative) if self._negative.enabled and steep else None
         lower = drops(views.only(list(range(len(steep)))), expect, pose) if expect else NOTHING
-        hits = self._mark(views, len(steep), pose, expect)
+        hits, points = self._mark(views, len(steep), pose, expect)
+        self._gather(hits, points, echoes)
         newest = {scan.sensor: k for k, (scan, _) in enumerate(chosen)}
         self._decay(views.only(list(newest.values())), self._elapsed_s(time_ns))
         self._add(hits)
@@ -217,8 +223,10 @@ class ObstacleMap:
 
     # ------------------------------------------------------------------ returns
 
-    def _mark(self, scans: Scans, steep: int, pose: Pose, expect: Expected | None) -> Ints:
-        """Sort the returns; obstacles gain in `_gain` and `_top`. Returns their cells.
+    def _mark(
+        self, scans: Scans, steep: int, pose: Pose, expect: Expected | None
+    ) -> tuple[Ints, Floats]:
+        """Sort the returns; those of obstacles: their cells (n,) and their places (3, n).
 
         The first `steep` scans are those of scanners that look down. What they meet far away is
         ground where it continues what is known.
@@ -248,7 +256,7 @@ class ObstacleMap:
         # low that a level beam, which passes over it, does not deny it
         points[2, first] -= p.tilt_rad * distance[first]
         hit = np.flatnonzero(obstacle & inside)
-        return self._gather(index.take(hit), points[2].take(hit))
+        return index.take(hit), points.take(hit, axis=1)
 
     def _teaches(self, place: Floats, distance_m: Floats, expect: Expected | None) -> Bools:
         """Which ends of steep beams (3, n) may teach the ground: near ones, and farther ones that
@@ -263,10 +271,13 @@ class ObstacleMap:
         near[:-1] &= ~jump
         return near
 
-    def _gather(self, index: Ints, height_m: Floats) -> Ints:
-        np.add.at(self._gain.ravel(), index, np.float32(self._hit))
-        self._raise(index, height_m + self.ground.vehicle_m)
-        return index
+    def _gather(self, index: Ints, points: Floats, echoes: Echoes | None) -> None:
+        """Let the cells of returns gain in `_gain` and `_top`."""
+        gain = np.full(len(index), self._hit, np.float32)
+        if echoes:
+            gain[echoes.near(points[:2])] *= self.parameters.confidence.radar
+        np.add.at(self._gain.ravel(), index, gain)
+        self._raise(index, points[2] + self.ground.vehicle_m)
 
     def _raise(self, index: Ints, height_m: Floats) -> None:
         """Let the tops of cells follow the highest return of a tick, above the datum.

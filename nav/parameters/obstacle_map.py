@@ -54,6 +54,8 @@ class ConfidenceParameters:
     """How far a beam must go on beyond a cell to have passed it."""
     low_m: float
     """What is lower than this lies below the beams of all level scanners."""
+    radar: float
+    """So much more a return counts where a radar's track agrees."""
     sonar: float
     """One echo."""
     sonar_limit: float

@@ -64,6 +64,19 @@ class Sonar:
 
 
 @dataclass(frozen=True)
+class Radar:
+    """A radar looks along `yaw_rad` in the plane of the vehicle."""
+
+    position_m: tuple[float, float, float]
+    yaw_rad: float
+    range_error_m: float
+    range_error_share: float
+    """The larger of the two bounds the error of its ranges."""
+    azimuth_error_rad: float
+    """Bounds the error of a track's direction in N: of the unit, its bracket, and the estimate."""
+
+
+@dataclass(frozen=True)
 class VehicleParameters:
     """`vehicle.toml`. The twin's MJCF is held against it by a test."""
 
@@ -77,5 +90,7 @@ class VehicleParameters:
     sonar: Sonar
     sonar_mounts: dict[str, SonarMount]
     """In the order of `SonarScan.range_m`."""
+    radars: dict[str, Radar]
+    """By the names of `nav.messages.device`: one or none."""
     gps_position_m: tuple[float, float, float]
     imu_position_m: tuple[float, float, float]
