@@ -45,7 +45,7 @@ class IonNavigator:
     def __init__(self, parameters: Parameters, route: Route) -> None:
         frame = route_frame(route)
         self.parameters = parameters
-        self.admission = Admission(STALE_NS, tuple(parameters.vehicle.lidar_mounts))
+        self.admission = Admission(STALE_NS, parameters.vehicle)
         waypoints = waypoints_of(route, frame)
         x, y = waypoints.position_m[1] - waypoints.position_m[0]
         along_route = atan2(float(y), float(x))  # the crew parks so; of use without a compass
@@ -74,10 +74,13 @@ class IonNavigator:
         return self.high_level.machine.state
 
     def step(self, time_ns: int, messages: Sequence[SensorMessage]) -> Outputs:
-        """Take all messages since the last call, in order of delivery; say what to do."""
+        """Take all messages since the last call, in order of delivery; say what to do.
+
+        While the clock is behind what it has been, nothing is known of now, and the vehicle stands.
+        """
         for message in self.admission.admit(time_ns, messages):
             self._take(message)
-        ego = self.ego.estimate(time_ns)
+        ego = self.ego.estimate(time_ns) if time_ns >= self.admission.now_ns else None
         self.calls += 1
         reports = self._decide(time_ns, ego) if ego and self.calls % HIGH_LEVEL_EVERY == 0 else ()
         return Outputs(self.low_level.step(time_ns, ego, self._vehicle), reports)
