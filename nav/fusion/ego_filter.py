@@ -16,6 +16,9 @@ SIZE = 9
 MIN_WAY_RATE_MPS = 1e-3
 """A standing vehicle's position still forgets a little: the covariance stays regular."""
 
+MOST_DOUBT = 1e4
+"""More, squared beside the centimetres of a fix, would leave nothing of a float's 16 digits; the
+state goes all the way to the measurement nevertheless."""
 COVARIANCE_S = 0.015
 """The covariance follows at least this much later: 50 Hz are enough, and half the work."""
 
@@ -163,7 +166,8 @@ class Filter:
 
     def doubt(self, index: int, innovation: float) -> None:
         """A refused source was right after all: the state may be wrong by as much."""
-        self.covariance[index, index] += innovation * innovation
+        wrong = min(abs(innovation), MOST_DOUBT)
+        self.covariance[index, index] += wrong * wrong
 
     def redraw_gps_offset(self) -> None:
         """The receiver's offset is another one now: forget it and what it went along with."""
