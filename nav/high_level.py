@@ -155,7 +155,8 @@ class HighLevelController:
         """The farthest point of the smooth path on the wide grid that is outside all boundaries;
         beyond the map all is free."""
         end = int(np.searchsorted(self.route.arc_m, self.here.arc_m + WIDE_M))
-        places = self.route.position_m[self.here.index : end + 1]
+        here = self.here.index  # beyond `end` when the vehicle is far behind its nearest place
+        places = self.route.position_m[here : max(end, here) + 1]
         free = boundaries.at(places[:, 0], places[:, 1]) == FREE
         x, y = places[free][-1] if free.any() else places[-1]
         return float(x), float(y)
