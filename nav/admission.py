@@ -121,5 +121,5 @@ class Admission:
     def _has_shape(self, message: SensorMessage) -> bool:
         length = self._lengths.get(type(message))
         shapes = [getattr(message, name).shape for name in _arrays_of(type(message))]
-        expected = shapes[0][:1] if length is None and shapes else (length,)
+        expected = (shapes[0][:1] or (0,)) if length is None and shapes else (length,)
         return all(shape == expected for shape in shapes)

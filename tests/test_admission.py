@@ -84,6 +84,8 @@ def test_good_messages_pass_in_order():
         (SonarScan(NOW, np.full(7, 4.0)), "wrong shape"),
         (imu(rate=[0, 0]), "wrong shape"),
         (RadarTracks(NOW, np.ones(2), np.ones(2), np.ones(3)), "wrong shape"),
+        (RadarTracks(NOW, np.ones((1, 1)), np.ones((1, 1)), np.ones((1, 1))), "wrong shape"),
+        (RadarTracks(NOW, np.float64(20.0), np.float64(0.1), np.float64(-5.0)), "wrong shape"),
         (compass(NOW - 600_000_000), "stale"),
         (compass(NOW + 60_000_000), "from the future"),
         (scan("lidar_of_another_truck"), "unknown scanner"),
