@@ -11,10 +11,12 @@ from nav.fusion.obstacle_map import ObstacleMap
 from nav.fusion.radar import echoes
 from nav.fusion.scan_geometry import Pose
 from nav.messages import LidarScan, RadarTracks
+from scenarios.ablation import disabled_sensors
 from scenarios.course import Course
 from scenarios.episode import Episode
 from scenarios.parameter_files import parameters_of
 from scenarios.route.course import build as build_route
+from scenarios.vehicles import VEHICLES
 from twin.faults import Fault
 
 RADAR = VEHICLE.radars["radar"]
@@ -169,3 +171,20 @@ def test_a_vehicle_that_should_have_no_radar_heeds_none_and_misses_none() -> Non
     situation = episode.navigator.high_level.situation
     assert situation is not None
     assert situation.health.missed == ()
+
+
+def test_only_ion_has_a_radar_to_take_away() -> None:
+    ion, *others = (VEHICLES[name] for name in ("ion", "pioneer", "dubins"))
+    assert disabled_sensors(("no-radar",), ion.lidars, ion.radars) == {"radar"}
+    assert "radar" in disabled_sensors(("blind",), ion.lidars, ion.radars)
+    for other in others:
+        assert "radar" not in disabled_sensors(("blind",), other.lidars, other.radars)
+        with pytest.raises(ValueError, match="no-radar: unknown"):
+            disabled_sensors(("no-radar",), other.lidars, other.radars)
+
+
+def test_without_the_radar_nothing_is_heard_of_it() -> None:
+    for ablate, heard in (((), True), (("no-radar",), False)):
+        episode = Episode(straight(), 5, ablate)
+        records = [r for _ in range(50) for r in episode.tick()]
+        assert any(isinstance(r.message, RadarTracks) for r in records) is heard
