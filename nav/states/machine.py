@@ -91,5 +91,6 @@ class Machine:
         plan = PLANNERS[self.state](s, self.memory, self.parameters)
         trouble = self.memory.trouble
         trouble.held = self.state in watchdog.MAIN_STATES and plan.speed_mps < STOP_MPS
+        trouble.steers = self.state == obstacle_avoidance.NAME
         trouble.ahead_m = min(plan.D1_m, plan.D_m)
         return plan

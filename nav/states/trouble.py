@@ -24,6 +24,8 @@ class Trouble:
     """For how long the rules have held the vehicle."""
     held: bool = False
     """Whether the last plan was to stand, by the rules of a forward state."""
+    steers: bool = False
+    """Whether the last plan was one of Obstacle Avoidance."""
     behind_s: float = 0.0
     """For how long the goal has lain outside the directions that are scanned: a vehicle that turns
     towards what is inside its turning circle goes round and round."""
@@ -52,7 +54,8 @@ class Trouble:
         held = stands and self.held
         self.stopped_s = self.stopped_s + elapsed_s if held else 0.0
         off = abs(wrapped(self.goal_rad(s) - s.ego.heading_rad))
-        self.behind_s = self.behind_s + elapsed_s if off > p.behind_rad else 0.0
+        behind = self.steers and off > p.behind_rad
+        self.behind_s = self.behind_s + elapsed_s if behind else 0.0
         if self.arc_m is not None and s.arc_m > self.arc_m + p.progress_m:
             self.tries, self.arc_m, self.rolls_far = 0, None, False
             self.way, self.goal_m = [], None
