@@ -119,3 +119,18 @@ def test_new_path_at_a_waypoint_at_the_fifth_point_and_when_blocked():
     moved = replace(far.ego, position_m=np.array([6.0, 0.0]))
     at_fifth = replace(far, ego=moved, waypoint=2)
     assert m.decide(at_fifth).replanned == "fifth pathpoint reached"
+
+
+def test_a_goal_behind_counts_only_while_it_is_steered_for():
+    """Operations turn the vehicle; asked for again at once, all six tries would go in a second."""
+    m = Machine(P)
+    limit_s = P.states.stuck.behind_s
+    blocked = replace(situation((15.0, 20.0, -4.0, 1.5)), goal_rad=np.pi, half_width_m=20.0)
+    t = 0.0
+    while m.state != "robotic_operations" and t < limit_s + 1.0:
+        m.decide(replace(blocked, time_ns=int(t * 1e9)))
+        t += 0.1
+    assert m.reason == "the goal lies behind"
+    assert t > limit_s
+    m.decide(replace(blocked, time_ns=int(t * 1e9)))
+    assert m.memory.trouble.behind_s == 0.0
