@@ -1,9 +1,12 @@
 """Many episodes, one process each; results come as they end, and none is lost."""
 
 import multiprocessing
+import os
 import signal
+import threading
 from collections.abc import Callable, Iterator, Sequence
 from concurrent.futures import FIRST_COMPLETED, Future, ProcessPoolExecutor, wait
+from multiprocessing import connection
 from multiprocessing.synchronize import Event
 from typing import Any
 
@@ -58,6 +61,15 @@ def _begin(stop: Event) -> None:
     global _stop
     _stop = stop
     signal.signal(signal.SIGINT, signal.SIG_IGN)
+    threading.Thread(target=_end_with_parent, daemon=True).start()
+
+
+def _end_with_parent() -> None:
+    """In a worker: with a parent that was killed, nobody is left who would take the result."""
+    parent = multiprocessing.parent_process()
+    assert parent is not None
+    connection.wait([parent.sentinel])
+    os._exit(1)
 
 
 def _cancel(pending: "dict[Future[Result], int]") -> Iterator[Result]:

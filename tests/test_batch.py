@@ -1,6 +1,8 @@
 """Batches and runs, tried with a small stand-in for an episode."""
 
+import multiprocessing
 import os
+import pathlib
 import signal
 import time
 from functools import partial
@@ -135,3 +137,33 @@ def test_a_verdict_stands_once_it_is_spoken():
     judge.outcome = "contact"
     judge.stop("interrupted")
     assert judge.outcome == "contact"
+
+
+def busy(folder, seed):
+    (folder / str(os.getpid())).touch()
+    time.sleep(30.0)
+    return square(seed)
+
+
+def batch_of_two(folder):
+    list(many(partial(busy, folder), [0, 1], 2))
+
+
+def test_workers_end_with_a_parent_that_was_killed(tmp_path):
+    parent = multiprocessing.get_context("spawn").Process(target=batch_of_two, args=(tmp_path,))
+    parent.start()
+    while len(workers := list(tmp_path.iterdir())) < 2:
+        time.sleep(0.05)
+    parent.kill()
+    deadline = time.monotonic() + 10.0
+    while any(alive(int(path.name)) for path in workers):
+        assert time.monotonic() < deadline
+        time.sleep(0.05)
+
+
+def alive(pid):
+    try:
+        state = pathlib.Path(f"/proc/{pid}/stat").read_text().split()[2]
+    except FileNotFoundError:
+        return False
+    return state != "Z"
