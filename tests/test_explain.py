@@ -1,6 +1,7 @@
 """`ion explain`: its numbers are those of the decision, and what cannot be answered is refused."""
 
 import json
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -11,7 +12,9 @@ from ion.explain.asked import decision_at
 from ion.explain.explanation import explanation_of
 from ion.explain.numbers import numbers
 from ion.explain.rule_panels import strongest
+from ion.explain.words import known
 from ion.job import Job
+from nav.fusion.health import Health
 from nav.messages import Decision
 from nav.planning.focus import angle_between
 from scenarios.dead_end.course import build as dead_end
@@ -155,6 +158,23 @@ def numbers_of(why):
     return numbers(Answer(why, "", ""))
 
 
+def test_the_health_of_the_ego_state_is_told():
+    """A drive whose fixes are refused, and whose bumper scanner is silent."""
+    episode = Episode(dead_end(SEED), SEED)
+    for _ in range(150):
+        episode.tick()
+    navigator = episode.navigator
+    now_ns = navigator.high_level.situation.time_ns
+    navigator.ego.filter.refused_since_ns["gps position"] = now_ns - 1_500_000_000
+    why = explanation_of(navigator)
+    why = replace(why, situation=replace(why.situation, health=Health(("lidar_bumper",))))
+    assert known(why).endswith("gps position refused for 1.5 s; lidar_bumper silent")
+    found = numbers_of(why)
+    assert found["refused_s"] == {"gps position": 1.5}
+    assert found["sensors_failed"] == ["lidar_bumper"]
+    assert 0.0 < found["position_sd_m"] < 0.2
+
+
 def test_a_table_and_a_picture_beside_the_tape(tape, avoiding, monkeypatch, capsys):
     at_s = round(avoiding, 2)
     code, out, err = ion(monkeypatch, capsys, "explain", tape, "--at", at_s)
@@ -163,6 +183,8 @@ def test_a_table_and_a_picture_beside_the_tape(tape, avoiding, monkeypatch, caps
     assert out.rstrip().endswith(f"picture: {path}")
     assert "equals the logged one" in out
     assert "theta_D" in out
+    assert "m an axis" in out
+    assert "the last fix 0." in out
     with open(path, "rb") as file:
         assert file.read(4)[1:] == b"PNG"
 

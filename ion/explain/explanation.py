@@ -35,6 +35,8 @@ class Explanation:
     """theta_D(k-1), which the persistence rules look at."""
     parameters: Parameters
     waypoints: Waypoints
+    refused_s: dict[str, float]
+    """For how long the ego state has refused a source, [s]; empty while it believes all."""
     cells_m: Floats
     """Shape (n, 2), occupied cells of the local map."""
     path: Curve | None
@@ -75,6 +77,7 @@ def explanation_of(navigator: IonNavigator) -> Explanation | None:
         previous_rad=then.decision_rad,
         parameters=navigator.parameters,
         waypoints=high.waypoints,
+        refused_s=navigator.ego.refused_s(high.situation.time_ns),
         cells_m=navigator.obstacles.occupied().position_m,
         path=memory.curve,
         pathpoint_m=memory.pathpoint_m,

@@ -6,7 +6,7 @@ import numpy as np
 from rich.table import Table
 
 from ion.explain.explanation import Explanation
-from ion.explain.words import NOT_IN_FORCE, decided, entered, from_heading, speed
+from ion.explain.words import NOT_IN_FORCE, decided, entered, from_heading, known, speed
 from nav.states.obstacle_avoidance import Considered
 
 SHOWN = 0.005
@@ -53,6 +53,7 @@ def _rows(why: Explanation) -> Iterator[tuple[str, str]]:
     yield "new local path", plan.replanned or "no, the former one is kept"
     yield "D1, D", f"{plan.D1_m:.1f} m, {plan.D_m:.1f} m"
     yield "v, limit V0", f"{s.ego.speed_mps:.2f} m/s, {s.V0_mps:.2f} m/s"
+    yield "ego state", known(why)
     yield "beside the route", f"{s.cross_track_m:+.2f} m, waypoint {s.waypoint} ahead"
 
 

@@ -41,6 +41,17 @@ def speed(why: Explanation) -> str:
     return f"{why.plan.speed_mps:.2f} m/s{limit}"
 
 
+def known(why: Explanation) -> str:
+    """How well the ego state is known, one sigma, and which sensors do not help."""
+    s, ego = why.situation, why.situation.ego
+    helpless = [f"{name} refused for {seconds:.1f} s" for name, seconds in why.refused_s.items()]
+    helpless += [f"{name} silent" for name in (*s.health.failed, *s.health.lost)]
+    return "; ".join([
+        f"±{ego.position_sd_m:.2f} m an axis, ±{degrees(ego.heading_sd_rad):.1f}°",
+        f"the last fix {s.gps_lost_s:.1f} s ago", *helpless,
+    ])  # fmt: skip
+
+
 def from_heading(why: Explanation, theta_rad: float) -> str:
     """An angle from the vehicle's heading, with its side."""
     value = round(degrees(wrapped(theta_rad - why.situation.ego.heading_rad)), 1)

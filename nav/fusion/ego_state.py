@@ -159,6 +159,11 @@ class EgoState:
         since = self._last.fix.time_ns if self._last.fix else self._first_ns
         return 0.0 if since is None else max(time_ns - since, 0) * 1e-9
 
+    def refused_s(self, time_ns: int) -> dict[str, float]:
+        """For how long each source has been refused by now, [s]; empty while all are believed."""
+        since = self.filter.refused_since_ns
+        return {name: max(time_ns - since[name], 0) * 1e-9 for name in sorted(since)}
+
     # ------------------------------------------------------------ start and dead reckoning
 
     def _begin(self, start: Start, message: SensorMessage) -> None:
