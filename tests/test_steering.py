@@ -9,7 +9,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from nav.fuzzy.inference import activations, strengths
+from nav.fuzzy.inference import activations, infer, strengths
 from nav.parameters.fuzzy import SteeringParameters
 from nav.parameters.loader import ParameterError, from_toml
 from nav.planning.focus import angle_between, deduction, situation
@@ -72,6 +72,26 @@ def test_focus_and_persistence_agree_with_an_evaluation_by_hand(ratio):
             focus = focus_by_hand(gap(theta, heading), gap(theta, goal), stretch)
             persistence = 5.0 * ramp(gap(theta, 0.4), 0.21, 0.61)
             assert value == pytest.approx(focus + persistence, abs=1e-9)
+
+
+@pytest.mark.parametrize("stretch", [1.0, 1.27, 1.6])
+def test_focus_rules_agree_with_an_evaluation_by_hand_over_a_dense_grid(stretch):
+    axis = np.linspace(0.0, pi, 160)
+    delta_1, delta_2 = (x.ravel() for x in np.meshgrid(axis, axis))
+    inputs = {"delta_1_rad": delta_1 / stretch, "delta_2_rad": delta_2 / stretch}
+    pairs = zip(delta_1.tolist(), delta_2.tolist(), strict=True)
+    by_hand = [focus_by_hand(a, b, stretch) for a, b in pairs]
+    np.testing.assert_allclose(infer(PARAMETERS.focus, inputs), by_hand, rtol=0, atol=1e-9)
+
+
+@pytest.mark.parametrize("name", ["situation", "focus", "persistence", "select"])
+def test_every_input_fires_a_rule(name):
+    """Over a dense grid that reaches beyond the inputs' ranges."""
+    base = getattr(PARAMETERS, name)
+    axes = [np.linspace(v.range[0] - 0.2, 1.2 * v.range[1] + 0.1, 41) for v in base.inputs.values()]
+    grid = (x.ravel() for x in np.meshgrid(*axes))
+    found = strengths(base, dict(zip(base.inputs, grid, strict=True)))
+    assert (found.max(axis=0) > 0.0).all()
 
 
 TABLE_6_1 = {
