@@ -1,7 +1,7 @@
 """The high-level controller (10 Hz): from fused state to a local path and a speed set point."""
 
 from dataclasses import dataclass
-from math import atan2
+from math import atan2, hypot
 
 import numpy as np
 
@@ -69,6 +69,7 @@ class HighLevelController:
         self.V0: Floats = speed_profile(self.route, parameters.planning.speed)
         self.machine = Machine(parameters)
         self.here = Projection(0, 0.0, 0.0)
+        self._arrived = False
         self.situation: Situation | None = None
         """What the last decision saw ..."""
         self.plan: Plan | None = None
@@ -85,15 +86,17 @@ class HighLevelController:
         self.here = project(self.route, senses.ego.position_m, self.here.index)
         s = self._situation(time_ns, senses, obstacles)
         plan = self.machine.decide(s)
-        if self._has_arrived():
+        self._arrived = self._arrived or self._arrives(senses.ego)
+        if self._arrived:
             plan = stand(s)
         self.situation, self.plan = s, plan
         return plan.command, self._decision(s, plan)
 
-    def _has_arrived(self) -> bool:
-        """Behind the end of the route, and not far beside it."""
-        beside = abs(self.here.cross_track_m) > self.parameters.planning.local_path.arrival_m
-        return self.here.arc_m >= self.route.arc_m[-1] and not beside
+    def _arrives(self, ego: EgoEstimate) -> bool:
+        """Just behind the end of the route; who comes by far beside it has to turn back."""
+        x, y = (ego.position_m - self.route.position_m[-1]).tolist()
+        near = hypot(x, y) <= self.parameters.planning.local_path.arrival_m
+        return near and self.here.arc_m >= self.route.arc_m[-1]
 
     def _situation(self, time_ns: int, senses: Senses, obstacles: ObstacleMap) -> Situation:
         p, ego, here = self.parameters.planning, senses.ego, self.here
