@@ -39,8 +39,10 @@ class Source:
 
     @property
     def said(self) -> dict[str, str]:
-        """The options, as short texts."""
-        return {name: str(value) for name, value in self.options}
+        """All but the seed and the route's text, as short texts."""
+        if self.scenario:
+            return {name: str(value) for name, value in self.options}
+        return {"from": str(self.first), "to": str(self.last)}
 
     def course(self, seed: int) -> "Course":
         """The course as `seed` draws it.

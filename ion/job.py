@@ -37,17 +37,23 @@ class Job:
             NavError: the route cannot be driven.
             OSError: tape or map cannot be written.
         """
+        from ion.recorded import EVENTS, FIGURES
+        from ion.report import as_json
         from ion.trace import Trace
         from scenarios.episode import Episode
+        from scenarios.events import Events, as_rows
+        from scenarios.true_states import TrueStates
 
         course, trace, tape = self.source.course(seed), Trace(), self.path(seed, ".mcap")
-        episode = Episode(course, seed, self.ablate)
+        episode, events = Episode(course, seed, self.ablate), Events()
         with self._tape(course, seed, tape) as writer:
-            figures = run(episode, writer, [*watches, trace])
+            figures = run(episode, writer, [*watches, trace, events, TrueStates(writer)])
+            figures |= {"scenario": self.source.title, "ablate": list(self.ablate)}
             wanted = not self.failures_only or figures["outcome"] != "finished"
             if wanted:
                 writer.keep()
-        figures |= {"scenario": self.source.title, "ablate": list(self.ablate)}
+                writer.attach(FIGURES, as_json(figures))
+                writer.attach(EVENTS, as_json(as_rows(events.found)))
         if not wanted:
             tape.unlink(missing_ok=True)
             return figures | {"log": None, "map": None}

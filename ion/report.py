@@ -62,7 +62,7 @@ class Bar:
         )
 
 
-def as_json(result: Result) -> str:
+def as_json(result: Result | list[Result]) -> str:
     """One line; numbers to a tenth of a millimetre."""
     return json.dumps(_rounded(result), allow_nan=False)
 
@@ -146,4 +146,4 @@ def _rounded(value: Any) -> Any:
         return round(value, 4)
     if isinstance(value, dict):
         return {key: _rounded(inner) for key, inner in value.items()}
-    return value
+    return [_rounded(inner) for inner in value] if isinstance(value, list) else value

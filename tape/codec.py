@@ -1,4 +1,5 @@
-"""The one lossless codec of `nav.messages`: decode(encode(m)) is m, bit for bit."""
+"""The one lossless codec of `nav.messages` and of what stands beside them: decode(encode(m)) is m,
+bit for bit."""
 
 from dataclasses import fields
 from enum import IntEnum
@@ -19,8 +20,11 @@ from nav.messages import (
 )
 from tape.errors import CodecError
 from tape.schemas import counts_name, is_counts, shape_name, wire_class
+from tape.truth import TrueState
 
-M = TypeVar("M", bound=Message)
+M = TypeVar("M", bound=Message | TrueState)
+KINDS: tuple[type[Any], ...] = (*MESSAGE_TYPES, TrueState)
+"""All that a tape may carry."""
 
 _COUNTS = np.dtype("<u2")
 _DOUBLES = np.dtype("<f8")
@@ -38,7 +42,7 @@ class _Plan(NamedTuple):
     """Name, and the wire's name of its counts."""
 
 
-def encode(message: Message) -> bytes:
+def encode(message: Message | TrueState) -> bytes:
     """The bytes of a message.
 
     Raises:
@@ -86,7 +90,7 @@ def _not_a_count(range_m: Floats, survived_m: Floats) -> str:
     )
 
 
-def _wire_values(plan: _Plan, message: Message) -> dict[str, Any]:
+def _wire_values(plan: _Plan, message: Message | TrueState) -> dict[str, Any]:
     values = vars(message).copy()  # scalars as they are: protobuf refuses the wrong kind
     for name, kind in plan.enums:
         values[name] = kind(values[name])
@@ -133,9 +137,9 @@ def _values(plan: _Plan, wire: Any) -> dict[str, Any]:
 
 @cache
 def _plan(kind: type) -> _Plan:
-    if kind not in MESSAGE_TYPES:
-        known = ", ".join(t.__name__ for t in MESSAGE_TYPES)
-        raise CodecError(f"{kind.__name__} is no message of nav.messages; known are {known}")
+    if kind not in KINDS:
+        known = ", ".join(t.__name__ for t in KINDS)
+        raise CodecError(f"{kind.__name__} is no message of ours; known are {known}")
     arrays = [f for f in fields(kind) if f.type is Floats]
     rest = [(f.name, f.type) for f in fields(kind) if f.type is not Floats]
     return _Plan(

@@ -35,6 +35,11 @@ class HeldBack:
         if len(self._held) > self._most:
             self.keep()
 
+    def attach(self, name: str, data: str | bytes) -> None:
+        """Attach a file to a tape that is kept."""
+        if self._writer:
+            self._writer.attach(name, data)
+
     def keep(self) -> None:
         """The tape is wanted: open it and write what waits.
 

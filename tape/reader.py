@@ -10,8 +10,7 @@ from mcap.records import Attachment, Channel, Chunk, Header, Message, Metadata, 
 from mcap.stream_reader import CRCValidationError, StreamReader, breakup_chunk
 from zstandard import ZstdError
 
-from nav.messages import MESSAGE_TYPES
-from tape.codec import decode
+from tape.codec import KINDS, decode
 from tape.errors import TapeError
 from tape.record import PREFIX, PROFILE, Record
 from tape.schemas import schema_name
@@ -19,11 +18,15 @@ from tape.schemas import schema_name
 Path = str | os.PathLike[str]
 
 MAGIC = b"\x89MCAP0\r\n"
-_KINDS = {schema_name(kind): kind for kind in MESSAGE_TYPES}
+_KINDS = {schema_name(kind): kind for kind in KINDS}
 
 
-def read(path: Path) -> Iterator[Record]:
+def read(path: Path, prefix: str | tuple[str, ...] = PREFIX) -> Iterator[Record]:
     """The records of a tape, in order of delivery; a cut end is simply where it ends.
+
+    Args:
+        path: of the tape.
+        prefix: of the topics; by default those that crossed the navigator's boundary.
 
     Raises:
         TapeError: no file, no MCAP file, no tape of ours, or damage before the end.
@@ -33,7 +36,7 @@ def read(path: Path) -> Iterator[Record]:
     for item in _items(path):
         if isinstance(item, Schema):
             schemas[item.id] = item.name
-        elif isinstance(item, Channel) and item.topic.startswith(PREFIX):
+        elif isinstance(item, Channel) and item.topic.startswith(prefix):
             channels[item.id] = (item.topic, _kind(path, item.topic, schemas[item.schema_id]))
         elif isinstance(item, Message) and item.channel_id in channels:
             topic, kind = channels[item.channel_id]

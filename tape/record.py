@@ -6,6 +6,7 @@ from typing import NamedTuple
 
 from nav.messages import LidarScan, Message
 from tape.codec import encode
+from tape.truth import TRUTH, TrueState
 
 PREFIX = "/tape/"
 """Only topics below it are replayed and digested."""
@@ -19,7 +20,7 @@ class Record(NamedTuple):
     topic: str
     delivery_ns: int
     """When the message was handed over; when it was measured is `message.time_ns`."""
-    message: Message
+    message: Message | TrueState
     payload: bytes
 
 
@@ -30,6 +31,11 @@ def record(delivery_ns: int, message: Message) -> Record:
         CodecError: the message would not survive the tape bit for bit.
     """
     return Record(topic(message), delivery_ns, message, encode(message))
+
+
+def record_of_truth(state: TrueState) -> Record:
+    """What nobody delivered: it stands on the tape at its own time."""
+    return Record(f"{TRUTH}vehicle", state.time_ns, state, encode(state))
 
 
 def topic(message: Message) -> str:

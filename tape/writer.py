@@ -13,6 +13,7 @@ from nav.messages import LidarScan
 from tape.errors import TapeError
 from tape.record import PROFILE, Record
 from tape.schemas import schema, schema_name
+from tape.truth import TrueState
 from tape.view import View, view_channel
 
 FLUSH_NS = 10**9
@@ -37,7 +38,8 @@ MODES: dict[str, Mode | None] = {
 class TapeWriter:
     """Writes records, and what people's tools show of them; a context manager.
 
-    `full` writes all, `inputs` no `/view/`, `light` no LIDAR scans, `off` no file at all.
+    `full` writes all, `inputs` neither `/view/` nor `/truth/`, `light` no LIDAR scans, `off` no
+    file at all.
     MCAP's log time is the delivery time. The SDK sets the publish time equal to it; the time of
     measurement is `time_ns` in every message.
     """
@@ -80,7 +82,7 @@ class TapeWriter:
     def write(self, record: Record) -> None:
         """Write a record, and what follows from it for `/view/`."""
         mode = self._mode
-        if mode is None or (not mode.scans and isinstance(record.message, LidarScan)):
+        if mode is None or not _wanted(record, mode):
             return
         if record.delivery_ns // FLUSH_NS != self._second:
             self._second = record.delivery_ns // FLUSH_NS
@@ -139,6 +141,12 @@ class TapeWriter:
     def _view_channel(self, topic: str, drawn: Any) -> Any:
         self._channels[topic] = view_channel(topic, drawn, self._context)
         return self._channels[topic]
+
+
+def _wanted(record: Record, mode: Mode) -> bool:
+    if isinstance(record.message, TrueState):
+        return mode.view
+    return mode.scans or not isinstance(record.message, LidarScan)
 
 
 def _open(path: str, context: Context) -> MCAPWriter:
