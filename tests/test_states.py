@@ -134,3 +134,16 @@ def test_a_goal_behind_counts_only_while_it_is_steered_for():
     assert t > limit_s
     m.decide(replace(blocked, time_ns=int(t * 1e9)))
     assert m.memory.trouble.behind_s == 0.0
+
+
+def test_a_path_that_ends_before_it_is_joined_is_not_clear():
+    """Behind the end of the route, far beside it, a path of half a metre is free and leads nowhere:
+    field 34 of density 240 drove on beside it, blind, into a circle."""
+    stub = sampled(np.array([[0.0, 0.0], [0.4, 0.0]]))
+    clear = clear_distances(stub, situation().boundaries, P.planning.footprint)
+    missed = replace(situation(), route_ahead=stub, route_clear=clear, cross_track_m=-9.0)
+    m = Machine(P)
+    m.decide(missed)
+    assert m.reason == "smooth path ends before it is joined"
+    m.decide(replace(missed, cross_track_m=0.1))
+    assert m.state == "path_point_keeping"

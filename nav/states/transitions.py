@@ -46,6 +46,8 @@ def _cannot_join(s: Situation, p: Parameters) -> str:
     the steering could follow, so that being free is no merit of it."""
     if abs(s.cross_track_m) < p.planning.local_path.join_offset_m:
         return ""
+    if s.route_ahead.arc_m[-1] < abs(s.cross_track_m):
+        return "smooth path ends before it is joined"
     turn = abs(wrapped(float(s.route_ahead.heading_rad[0]) - s.ego.heading_rad))
     tightest = float(np.abs(s.route_ahead.curvature_per_m).max())
     too_tight = tightest * p.vehicle.steering.minimum_radius_m > 1.0
