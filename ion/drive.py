@@ -8,7 +8,7 @@ from rich.console import Console
 
 from ion.job import Job
 from ion.options import Options, job_of, seeds_of
-from ion.report import Bar, as_json, line, summary, table
+from ion.telling import Bar, as_json, line, summary, table
 from scenarios.batch import many
 
 FINISHED, NOT_FINISHED, INTERRUPTED = 0, 1, 130

@@ -38,7 +38,7 @@ class Job:
             OSError: tape or map cannot be written.
         """
         from ion.recorded import EVENTS, FIGURES
-        from ion.report import as_json
+        from ion.telling import as_json
         from ion.trace import Trace
         from scenarios.episode import Episode
         from scenarios.events import Events, as_rows
@@ -116,7 +116,7 @@ def _view(vehicle: str) -> Any:
 
 
 def _title(course: str, seed: int, figures: dict[str, Any]) -> str:
-    from ion.report import way
+    from ion.telling import way
 
     minutes, seconds = divmod(round(figures["sim_time_s"]), 60)
     gates = f"{figures['gates_passed']} of {figures['gates_total']} gates, "

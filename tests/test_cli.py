@@ -17,7 +17,7 @@ from ion.__main__ import main
 from ion.errors import UsageError
 from ion.job import Job
 from ion.options import Options, job_of, seeds_of
-from ion.report import as_json, line, summary
+from ion.telling import as_json, line, summary
 from scenarios.processor import fingerprint, fix_processor, settings
 from tape.digest import Digest
 from tape.reader import attachments, metadata, read

@@ -7,7 +7,7 @@ import numpy as np
 
 from ion.figures.record import Recorder
 from ion.figures.stretch import around
-from ion.report import Bar
+from ion.telling import Bar
 from scenarios.course import Course, Floats
 from scenarios.episode import Episode
 from scenarios.nqe.course import build as nqe
