@@ -31,6 +31,7 @@ def _command() -> int:
     from ion.explain.options import Options as ExplainOptions
     from ion.figures.options import Options as FiguresOptions
     from ion.options import Options
+    from ion.report.options import Options as ReportOptions
 
     app = tyro.extras.SubcommandApp()
 
@@ -54,6 +55,13 @@ def _command() -> int:
         from ion.figures import command
 
         return command.figures(options)
+
+    @app.command
+    def report(options: Annotated[ReportOptions, tyro.conf.arg(name="")]) -> int:
+        """Put one drive on a page: verdict, map, curves, events, and how to repeat it."""
+        from ion.report import command
+
+        return command.report(options)
 
     @app.command
     def states() -> int:

@@ -5,6 +5,7 @@ from pathlib import Path
 
 import numpy as np
 from matplotlib.axes import Axes
+from matplotlib.figure import Figure
 from numpy.typing import NDArray
 
 from ion.map_layers import Scene, draw_scene
@@ -55,6 +56,14 @@ def draw_map(course: Course, trace: Trace, judge: Judge, title: str, path: Path)
     for k, (name, pose) in enumerate(details):
         _draw_detail(figure.add_subplot(grid[1, k]), scene, name, pose)
     figure.savefig(path, dpi=DPI)
+
+
+def whole_map(scene: Scene, title: str) -> Figure:
+    """The map alone, without the places where it was tight."""
+    box = _whole(scene)
+    figure = new_figure(WIDTH_IN, _height_in(box))
+    _draw_whole(figure.add_subplot(), scene, box, title)
+    return figure
 
 
 def _whole(scene: Scene) -> Box:

@@ -16,6 +16,16 @@ REAL, SAFE = "#34568b", "#2a9d8f"
 """Of the real and the safe boundary, and of all that is decided on them."""
 DECIDED, GOAL = "#c0392b", "#8e44ad"
 """theta_D with the chosen path, and phi."""
+STATES = {
+    "path_point_keeping": "#9fbf9f",
+    "obstacle_avoidance": "#e0701f",
+    "tunnel_mode": "#8fa3b8",
+    "robotic_operations": "#8e44ad",
+    "rollback": "#c0392b",
+    "road_following": "#d8b04a",
+    "alarm": "#33322e",
+}
+"""Of the states of Fig. 6.3."""
 DPI = 150
 
 

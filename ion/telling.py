@@ -20,6 +20,9 @@ SHORT_M = 160.0
 EVERY = 25
 """Ticks between two looks at the bar: 0.5 s simulated, about 0.01 s of wall time."""
 
+FILES = {"tape": "log", "map": "map"}
+"""What a drive leaves, and where its result names it."""
+
 Result = dict[str, Any]
 
 
@@ -87,7 +90,7 @@ def table(result: Result) -> Table:
     grid = Table(title=title, show_header=False, title_justify="left")
     grid.add_column()
     grid.add_column(overflow="fold")
-    for name, text in _rows(result):
+    for name, text in rows(result):
         grid.add_row(name, text)
     return grid
 
@@ -104,7 +107,8 @@ def line(result: Result) -> str:
     )
 
 
-def _rows(r: Result) -> list[tuple[str, str]]:
+def rows(r: Result) -> list[tuple[str, str]]:
+    """What one drive came to: names and texts."""
     states = ", ".join(f"{name.replace('_', ' ')} {_clock(s)}" for name, s in r["states"].items())
     wall = f"{r['wall_time_s']:.1f} s, {r['real_time_factor']:.0f} times real time"
     return [
@@ -123,8 +127,11 @@ def _rows(r: Result) -> list[tuple[str, str]]:
         ("waypoints", f"{r['waypoints_passed']} of {r['waypoints_total']}"),
         ("states", states),
         ("digest", r["digest"]),
-        ("tape", r["log"] or "not kept"),
-        ("map", r["map"] or "not kept"),
+        *(
+            (name, r[key] or "not kept")
+            for name, key in (("tape", "log"), ("map", "map"))
+            if key in r
+        ),
     ]
 
 

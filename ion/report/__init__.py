@@ -1,0 +1,1 @@
+"""`ion report`: one drive as a page that anybody can open."""
