@@ -188,3 +188,14 @@ def test_ground_that_is_seen_there_takes_a_drop_away():
         swung = pose._replace(pitch_rad=0.006 * np.sin(0.3 * k))
         world.chart.integrate([(world.scan("lidar_roof", swung, ground, 10**10 + k), swung)])
     assert len(world.drops().T) < 10
+
+
+def test_a_drop_is_wide():
+    """Four beams that look into a gap between two bales are none: NQE 9 and 17 stood before one."""
+    scan = np.repeat([0, 1], 20)
+    beam = np.tile(np.arange(100, 120), 2)
+    deep = np.zeros(40, bool)
+    deep[3:7] = deep[18:24] = deep[28:36] = True
+    wide = _in_wide_runs(scan, beam, deep, PARAMETERS.negative.least_beams)
+    assert np.flatnonzero(wide).tolist() == list(range(28, 36))
+    assert not _in_wide_runs(scan, beam, np.zeros(40, bool), 8).any()

@@ -7,7 +7,8 @@ crossed that floor, and reaches as far as the beam passed below it.
 A scanner sweeps over an edge once, some 18 m ahead. Behind it the beam goes on above the low
 ground, and soon the known ground is too far away to say what should have been there, so only the
 first metre of the sweep speaks. Ground that falls by as much as courses do (0.08) is met by the
-next scans already, and so never lies far from known ground. A beam that ends on an obstacle ends
+next scans already, and so never lies far from known ground. A drop is wide: a few beams that find a
+gap between obstacles, whose ground nobody has seen, show none. A beam that ends on an obstacle ends
 above the floor; what lies behind a crest that falls as steeply as the beams is a drop to them.
 """
 
@@ -15,6 +16,7 @@ import numpy as np
 
 from nav.fusion.expected_ground import Bools, Expected, Floor
 from nav.fusion.ground_profile import UNKNOWN_M
+from nav.fusion.lattice import Ints
 from nav.fusion.scan_geometry import Pose, Scans
 from nav.messages import Floats
 from nav.parameters.obstacle_map import NegativeParameters
@@ -53,6 +55,8 @@ def drops(scans: Scans, expect: Expected, pose: Pose) -> Floats:
     start, way = origin[:2, scan], way[:2, scan, beam, None]  # (2, n, 1) each
     range_m = scans.range_m[:, inner][scan, beam, None]
     edge, end = _below(expect.floor, start, way, crossing, fall, range_m, p)
+    wide = _in_wide_runs(scan, beam, end[:, 0] > -UNKNOWN_M, p.least_beams)
+    end = np.where(wide[:, None], end, -UNKNOWN_M)
     marks = edge + MARK_M
     place = start + way * marks + np.array([pose.x_m, pose.y_m])[:, None, None]
     return place[:, marks <= end]
@@ -72,6 +76,16 @@ def _below(
     last = BEYOND_M[-1] - SAMPLE_M * np.flip(deep, axis=1).argmax(axis=1)[:, None]
     end = np.minimum(range_m, crossing + last + SAMPLE_M)
     return edge, np.where(np.any(deep, axis=1, keepdims=True), end, -UNKNOWN_M)
+
+
+def _in_wide_runs(scan: Ints, beam: Ints, deep: Bools, least: int) -> Bools:
+    """Which of the beams (n,), ordered by scan, are deep and have enough deep neighbours."""
+    index = np.flatnonzero(deep)
+    apart = (np.diff(beam[index]) != 1) | (np.diff(scan[index]) != 0)
+    run = np.concatenate([[0], np.cumsum(apart)])[: index.size]
+    wide = np.zeros(len(deep), bool)
+    wide[index] = np.bincount(run, minlength=1)[run] >= least
+    return wide
 
 
 def _inner(scans: Scans, fan_rad: float) -> slice:

@@ -92,6 +92,8 @@ class NegativeParameters:
     """Beams that fall less against the ground, for each metre, say nothing."""
     fan_rad: float
     """Beams farther from the middle of their fan say nothing."""
+    least_beams: int
+    """So many beams side by side have to show a drop."""
     gain: float
     """Confidence that a tick adds where it shows a drop."""
     clear: float
