@@ -2,8 +2,8 @@
 
 import json
 import sys
-from collections.abc import Iterator
-from contextlib import contextmanager
+from collections.abc import Callable, Iterator
+from contextlib import AbstractContextManager, contextmanager, nullcontext
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -24,8 +24,8 @@ from tape.errors import TapeError
 from tape.reader import metadata, span_ns
 
 IDENTICAL, DIFFERS, BAD_INPUT, INTERRUPTED = 0, 1, 2, 130
-EVERY = 50
-"""Ticks between two looks at the bar: a second of the tape."""
+Watch = Callable[[float], AbstractContextManager[Shown]]
+"""Is given the time at which the tape ends, [s]."""
 
 
 def replay_tapes(options: Options) -> int:
@@ -38,8 +38,7 @@ def replay_tapes(options: Options) -> int:
     check(options)
     work = Work(options)
     if len(options.logs) == 1:
-        with _bar(options.logs[0]) as shown:
-            result = work.replay(options.logs[0], shown)
+        result = work.replay(options.logs[0], _bar)
         _tell(result, options.json)
         return _code([result])
     return _code(list(_many(work, options)))
@@ -51,18 +50,23 @@ class Work:
 
     options: Options
 
-    def replay(self, log: Path, shown: Shown) -> Result:
+    def replay(self, log: Path, watch: Watch) -> Result:
         """Replay one tape to its end, and draw what moved.
+
+        Args:
+            log: the tape.
+            watch: gives, for the time from the first tick to the last, what is shown each.
 
         Raises:
             UsageError, TapeError: as `replay_tapes`.
         """
-        span_ns(log)  # refuses an empty tape
+        end_s = span_ns(log)[1] * 1e-9
         check_scans(log)
         path = picture_path(log, self.options.out, self.options.json)
         instead = texts_of(self.options.parameters, metadata(log).get("vehicle", ION))
         ticks = replay(log, navigator_of(log, instead))
-        comparison = compare(ticks, tolerance(log), shown)
+        with watch(end_s) as shown:
+            comparison = compare(ticks, tolerance(log), shown)
         if not comparison.ticks:
             raise UsageError(f"{log}: ends before the navigator's first targets")
         result = {"log": str(log), **numbers(comparison, unlike(log)), "picture": None}
@@ -78,7 +82,7 @@ class Work:
         """As `replay`, for `scenarios.batch`: what is wrong becomes a result."""
         log = self.options.logs[number]
         try:
-            return self.replay(log, _stop_when_asked)
+            return self.replay(log, lambda _: nullcontext(_stop_when_asked))
         except (UsageError, NavError, TapeError) as error:
             return {"log": str(log), "outcome": "error", "message": str(error)}
         except KeyboardInterrupt:
@@ -124,16 +128,17 @@ def _code(results: list[Result]) -> int:
 
 
 @contextmanager
-def _bar(log: Path) -> Iterator[Shown]:
+def _bar(end_s: float) -> Iterator[Shown]:
     """A bar on standard error."""
     columns = (TextColumn("replay"), BarColumn(), TextColumn("{task.completed:.0f} s"))
     with Progress(*columns, console=Console(stderr=True), transient=True) as progress:
-        start_ns, end_ns = span_ns(log)
-        task = progress.add_task("", total=end_ns * 1e-9)
+        task, seconds = progress.add_task("", total=end_s), 0
 
         def shown(tick: Tick) -> None:
-            if (tick.time_ns - start_ns) // 20_000_000 % EVERY == 0:
-                progress.update(task, completed=tick.time_ns * 1e-9)
+            nonlocal seconds
+            if tick.time_ns // 10**9 != seconds:
+                seconds = tick.time_ns // 10**9
+                progress.update(task, completed=seconds)
 
         yield shown
 

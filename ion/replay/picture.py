@@ -126,7 +126,7 @@ def _draw_field(axes: Axes, name: str, found: Waveform) -> None:
     plain(axes, name)
     axes.plot(found.time_s, found.logged, "-", color=QUIET, linewidth=2.6, label="logged")
     axes.plot(found.time_s, found.now, "-", color=DECIDED, linewidth=1.1, label="now")
-    axes.legend(loc="upper right", frameon=False, fontsize=8.5, labelcolor=INK, ncols=2)
+    axes.legend(loc="lower right", bbox_to_anchor=(1, 0.97), frameon=False, fontsize=8.5, ncols=2)
 
 
 def _apart(found: Waveform) -> list[float]:

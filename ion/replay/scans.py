@@ -4,8 +4,6 @@ from pathlib import Path
 
 from ion.errors import UsageError
 from nav.messages import Decision, LidarScan
-from scenarios.ablation import disabled_sensors
-from scenarios.vehicles import VEHICLES
 from tape.reader import metadata, read
 
 
@@ -34,6 +32,9 @@ def check_scans(log: Path) -> float | None:
 
 def _needs_scans(log: Path) -> bool:
     """A drive may have been without scanners from the beginning."""
+    from scenarios.ablation import disabled_sensors
+    from scenarios.vehicles import VEHICLES  # loads the simulator: only here, as it takes a second
+
     said = metadata(log)
     vehicle = VEHICLES.get(said.get("vehicle", ""))
     if vehicle is None:
