@@ -31,6 +31,7 @@ def _command() -> int:
     from ion.explain.options import Options as ExplainOptions
     from ion.figures.options import Options as FiguresOptions
     from ion.options import Options
+    from ion.replay.options import Options as ReplayOptions
     from ion.report.options import Options as ReportOptions
 
     app = tyro.extras.SubcommandApp()
@@ -48,6 +49,13 @@ def _command() -> int:
         from ion.explain import command
 
         return command.explain(options)
+
+    @app.command
+    def replay(options: Annotated[ReplayOptions, tyro.conf.arg(name="")]) -> int:
+        """Run the present navigator on what a tape recorded, and compare what it says."""
+        from ion.replay import command
+
+        return command.replay_tapes(options)
 
     @app.command
     def figures(options: Annotated[FiguresOptions, tyro.conf.arg(name="")]) -> int:

@@ -78,13 +78,14 @@ class Admission:
     """Time of the newest good message of each device."""
     dropped: dict[str, int] = field(default_factory=dict[str, int])
     """Count for each reason."""
-    _lengths: dict[type[Any], int] = field(init=False)
+    _shapes: dict[type[Any], tuple[int]] = field(init=False)
     """Of the arrays of each kind of message; those of a radar need only be alike."""
 
     def __post_init__(self) -> None:
         beams, sonars = self.vehicle.lidar.count, len(self.vehicle.sonar_mounts)
-        self._lengths = {
-            LidarScan: beams, SonarScan: sonars, GpsFix: 3, ImuSample: 3, VehicleState: 6
+        self._shapes = {
+            LidarScan: (beams,), SonarScan: (sonars,), GpsFix: (3,), ImuSample: (3,),
+            VehicleState: (6,),
         }  # fmt: skip
 
     def admit(self, now_ns: int, messages: Iterable[SensorMessage]) -> list[SensorMessage]:
@@ -119,7 +120,10 @@ class Admission:
         return ""
 
     def _has_shape(self, message: SensorMessage) -> bool:
-        length = self._lengths.get(type(message))
-        shapes = [getattr(message, name).shape for name in _arrays_of(type(message))]
-        expected = (shapes[0][:1] or (0,)) if length is None and shapes else (length,)
-        return all(shape == expected for shape in shapes)
+        expected = self._shapes.get(type(message))
+        for name in _arrays_of(type(message)):
+            shape = getattr(message, name).shape
+            expected = expected or shape[:1] or (0,)
+            if shape != expected:
+                return False
+        return True

@@ -128,10 +128,11 @@ def _values(plan: _Plan, wire: Any) -> dict[str, Any]:
         values[name] = kind(getattr(wire, name))
     for name, shape in plan.arrays:
         array = np.frombuffer(getattr(wire, name), _DOUBLES)
-        values[name] = array.reshape(getattr(wire, shape) or -1)
+        several = getattr(wire, shape)
+        values[name] = array.reshape(several) if several else array
     for name, counts in plan.counts:
         steps = np.frombuffer(getattr(wire, counts), _COUNTS)
-        values[name] = lidar_range_m(np.cumsum(steps, dtype=_COUNTS))
+        values[name] = lidar_range_m(np.add.accumulate(steps, dtype=_COUNTS))
     return values
 
 

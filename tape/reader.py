@@ -6,18 +6,18 @@ from collections.abc import Iterator
 from typing import Any, BinaryIO
 
 from mcap.exceptions import EndOfFile, McapError
-from mcap.records import Attachment, Channel, Chunk, Header, Message, Metadata, Schema
-from mcap.stream_reader import CRCValidationError, StreamReader, breakup_chunk
+from mcap.records import Attachment, Channel, Chunk, Header, Metadata, Schema
+from mcap.stream_reader import CRCValidationError
 from zstandard import ZstdError
 
 from tape.codec import KINDS, decode
 from tape.errors import TapeError
+from tape.mcap_records import MAGIC, Packed, records, unpacked
 from tape.record import PREFIX, PROFILE, Record
 from tape.schemas import schema_name
 
 Path = str | os.PathLike[str]
 
-MAGIC = b"\x89MCAP0\r\n"
 _KINDS = {schema_name(kind): kind for kind in KINDS}
 
 
@@ -34,13 +34,14 @@ def read(path: Path, prefix: str | tuple[str, ...] = PREFIX) -> Iterator[Record]
     schemas: dict[int, str] = {}
     channels: dict[int, tuple[str, Any]] = {}
     for item in _items(path):
-        if isinstance(item, Schema):
+        if isinstance(item, Packed):
+            if item.channel_id in channels:
+                topic, kind = channels[item.channel_id]
+                yield Record(topic, item.log_time, decode(kind, item.data), item.data)
+        elif isinstance(item, Schema):
             schemas[item.id] = item.name
         elif isinstance(item, Channel) and item.topic.startswith(prefix):
             channels[item.id] = (item.topic, _kind(path, item.topic, schemas[item.schema_id]))
-        elif isinstance(item, Message) and item.channel_id in channels:
-            topic, kind = channels[item.channel_id]
-            yield Record(topic, item.log_time, decode(kind, item.data), item.data)
 
 
 def attachments(path: Path) -> dict[str, bytes]:
@@ -90,9 +91,9 @@ def _items(path: Path, chunks: bool = False) -> Iterator[Any]:
     try:
         with open(path, "rb") as file:
             closed = _check(path, file)
-            for item in _until_cut(path, _Whole(file), closed):
+            for item in _until_cut(path, file, closed):
                 if isinstance(item, Chunk) and not chunks:
-                    yield from breakup_chunk(item, validate_crc=True)
+                    yield from unpacked(item)
                 else:
                     yield item
     except OSError as error:
@@ -106,30 +107,15 @@ def _check(path: Path, file: BinaryIO) -> bool:
     if file.read(len(MAGIC)) != MAGIC:
         raise TapeError(f"{path}: not a tape; expected an MCAP file written by tape.TapeWriter")
     file.seek(-len(MAGIC), os.SEEK_END)
-    closed = file.tell() > 0 and file.read() == MAGIC
-    file.seek(0)
-    return closed
+    return file.tell() > 0 and file.read() == MAGIC
 
 
-def _until_cut(path: Path, file: "_Whole", closed: bool) -> Iterator[Any]:
+def _until_cut(path: Path, file: BinaryIO, closed: bool) -> Iterator[Any]:
     try:
-        for item in StreamReader(file, emit_chunks=True).records:  # type: ignore[arg-type]
+        for item in records(file):
             if isinstance(item, Header) and item.profile != PROFILE:
                 raise TapeError(f"{path}: MCAP of profile {item.profile!r}, expected {PROFILE!r}")
             yield item
     except EndOfFile as error:
         if closed:
             raise TapeError(f"{path}: damaged: a record is longer than the file") from error
-
-
-class _Whole:
-    """A file that gives all bytes asked for, or says that it ends."""
-
-    def __init__(self, file: BinaryIO) -> None:
-        self._file = file
-
-    def read(self, length: int) -> bytes:
-        data = self._file.read(length)
-        if len(data) < length:
-            raise EndOfFile
-        return data

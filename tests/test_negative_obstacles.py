@@ -11,6 +11,7 @@ import numpy as np
 import pytest
 from test_obstacle_map import GEOMETRY, PARAMETERS, VEHICLE
 
+from nav.fusion.negative_obstacles import _in_wide_runs
 from nav.fusion.obstacle_map import ObstacleMap
 from nav.fusion.scan_geometry import Pose, placed
 from nav.messages import LidarScan

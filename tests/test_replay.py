@@ -8,11 +8,12 @@ import pytest
 from nav.messages import ActuatorTargets, Decision, LidarScan, VehicleState
 from nav.navigator import IonNavigator
 from nav.route import rddf
+from scenarios.difference import difference
 from scenarios.episode import Episode
 from scenarios.parameter_files import parameter_texts
 from scenarios.processor import fingerprint
 from scenarios.random_field.course import build
-from scenarios.replay import Tick, difference, navigator_of, replay, tolerance
+from scenarios.replay import Tick, navigator_of, replay, tolerance
 from tape.errors import TapeError
 from tape.reader import attachments, span_ns
 from tape.record import record

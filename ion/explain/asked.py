@@ -6,11 +6,11 @@ from typing import NamedTuple
 
 from ion.errors import UsageError
 from ion.explain.explanation import Explanation, explanation_of
-from nav.messages import Decision, LidarScan
-from scenarios.ablation import disabled_sensors
-from scenarios.replay import difference, navigator_of, replay, tolerance
-from scenarios.vehicles import VEHICLES
-from tape.reader import metadata, read, span_ns
+from ion.replay.scans import check_scans
+from nav.messages import Decision
+from scenarios.difference import difference
+from scenarios.replay import navigator_of, replay, tolerance
+from tape.reader import span_ns
 
 Shown = Callable[[float], None]
 """Is told how far the replay is, [s]."""
@@ -59,33 +59,8 @@ def check(log: Path, at_s: float) -> None:
     end_s = span_ns(log)[1] * 1e-9
     if not at_s <= end_s:
         raise UsageError(f"--at {at_s:g}: the tape {log} ends at {end_s:.2f} s")
-    first_s, scans = _start(log)
-    if not scans and _needs_scans(log):
-        raise UsageError(
-            f"{log}: has no LIDAR scans (--log light?); expected a tape of --log full or inputs"
-        )
+    first_s = check_scans(log)
     if first_s is None:
         raise UsageError(f"{log}: has no decision on it")
     if at_s < first_s:
         raise UsageError(f"--at {at_s:g}: the first decision on {log} is at {first_s:.2f} s")
-
-
-def _start(log: Path) -> tuple[float | None, bool]:
-    """When the first decision was delivered, and whether any scan was before it."""
-    scans = False
-    for item in read(log):
-        scans |= isinstance(item.message, LidarScan)
-        if isinstance(item.message, Decision):
-            return item.delivery_ns * 1e-9, scans
-    return None, scans
-
-
-def _needs_scans(log: Path) -> bool:
-    """A drive may have been without scanners from the beginning."""
-    said = metadata(log)
-    vehicle = VEHICLES.get(said.get("vehicle", ""))
-    if vehicle is None:
-        return True
-    ablate = tuple(said.get("ablate", "").split())
-    silent = disabled_sensors(ablate, vehicle.lidars, vehicle.radars)
-    return not set(vehicle.lidars) <= silent

@@ -6,7 +6,7 @@ from typing import Annotated
 
 from tyro.conf import Positional, arg
 
-from ion.errors import UsageError
+from ion.out_file import check_file
 
 
 @dataclass(frozen=True)
@@ -33,12 +33,5 @@ def picture_path(options: Options) -> Path | None:
         return None
     beside = options.log.with_name(f"{options.log.stem}_at{options.at:g}.png")
     path = options.out or beside
-    try:
-        path.parent.mkdir(parents=True, exist_ok=True)
-        with open(path, "ab"):
-            pass
-    except OSError as error:
-        raise UsageError(f"--out {path}: cannot be written: {error.strerror}") from error
-    if not path.stat().st_size:
-        path.unlink()
+    check_file(path)
     return path
