@@ -31,6 +31,7 @@ def _command() -> int:
     from ion.explain.options import Options as ExplainOptions
     from ion.figures.options import Options as FiguresOptions
     from ion.options import Options
+    from ion.view.options import Options as ViewOptions
 
     app = tyro.extras.SubcommandApp()
 
@@ -54,6 +55,13 @@ def _command() -> int:
         from ion.figures import command
 
         return command.figures(options)
+
+    @app.command
+    def view(options: Annotated[ViewOptions, tyro.conf.arg(name="")]) -> int:
+        """Show a recorded drive as a web page, moment by moment."""
+        from ion.view import command
+
+        return command.view(options)
 
     @app.command
     def states() -> int:

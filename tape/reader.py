@@ -3,22 +3,42 @@
 import os
 import struct
 from collections.abc import Iterator
-from typing import Any, BinaryIO
+from typing import Any, BinaryIO, NamedTuple
 
 from mcap.exceptions import EndOfFile, McapError
 from mcap.records import Attachment, Channel, Chunk, Header, Message, Metadata, Schema
 from mcap.stream_reader import CRCValidationError, StreamReader, breakup_chunk
 from zstandard import ZstdError
 
+from nav.messages import Message as BoundaryMessage
 from tape.codec import KINDS, decode
 from tape.errors import TapeError
 from tape.record import PREFIX, PROFILE, Record
 from tape.schemas import schema_name
+from tape.truth import TrueState
 
 Path = str | os.PathLike[str]
 
 MAGIC = b"\x89MCAP0\r\n"
 _KINDS = {schema_name(kind): kind for kind in KINDS}
+
+
+class Packed(NamedTuple):
+    """One line of the tape whose message is still bytes: most are never looked at."""
+
+    topic: str
+    delivery_ns: int
+    kind: Any
+    """The message's type."""
+    payload: bytes
+
+    def message(self) -> BoundaryMessage | TrueState:
+        """Unpack it.
+
+        Raises:
+            CodecError: the bytes are no such message.
+        """
+        return decode(self.kind, self.payload)
 
 
 def read(path: Path, prefix: str | tuple[str, ...] = PREFIX) -> Iterator[Record]:
@@ -31,6 +51,16 @@ def read(path: Path, prefix: str | tuple[str, ...] = PREFIX) -> Iterator[Record]
     Raises:
         TapeError: no file, no MCAP file, no tape of ours, or damage before the end.
     """
+    for item in read_packed(path, prefix):
+        yield Record(item.topic, item.delivery_ns, item.message(), item.payload)
+
+
+def read_packed(path: Path, prefix: str | tuple[str, ...] = PREFIX) -> Iterator[Packed]:
+    """As `read`, without unpacking the messages.
+
+    Raises:
+        TapeError: as `read`.
+    """
     schemas: dict[int, str] = {}
     channels: dict[int, tuple[str, Any]] = {}
     for item in _items(path):
@@ -40,7 +70,7 @@ def read(path: Path, prefix: str | tuple[str, ...] = PREFIX) -> Iterator[Record]
             channels[item.id] = (item.topic, _kind(path, item.topic, schemas[item.schema_id]))
         elif isinstance(item, Message) and item.channel_id in channels:
             topic, kind = channels[item.channel_id]
-            yield Record(topic, item.log_time, decode(kind, item.data), item.data)
+            yield Packed(topic, item.log_time, kind, item.data)
 
 
 def attachments(path: Path) -> dict[str, bytes]:
