@@ -1,6 +1,8 @@
 """`ion view`: a recorded drive as a web page, moment by moment."""
 
 import socket
+from contextlib import redirect_stdout
+from io import StringIO
 
 import viser
 
@@ -9,7 +11,7 @@ from ion.recorded import recorded
 from ion.view.options import LOCAL, Options
 from ion.view.page import Page
 from ion.view.timeline import Timeline
-from scenarios.replay import navigator_of
+from nav.parameters import parameters_from
 
 FIRST_PORT, TRIED = 8080, 100
 
@@ -24,10 +26,11 @@ def view(options: Options) -> int:
     found = recorded(options.log)
     timeline = Timeline(options.log)
     port = free_port(options.host, options.port)
-    course, parameters = found.course(), navigator_of(options.log).parameters
-    server = viser.ViserServer(options.host, port, verbose=False)
+    course = found.course()
+    with redirect_stdout(StringIO()):  # it says more than one wants to know
+        server = viser.ViserServer(options.host, port, verbose=False)
+    page = Page(server, found, course, parameters_from(found.files, course.vehicle), timeline)
     timeline.start()
-    page = Page(server, found, course, parameters, timeline)
     _tell(options.host, server.get_port())
     try:
         page.run()

@@ -5,7 +5,7 @@ from collections.abc import Sequence
 import numpy as np
 import viser
 
-from ion.style import AHEAD, EDGE, HARD, MISSED, PASSED, QUIET, SAND, TUNNEL
+from ion.style import AHEAD, EDGE, HARD, MISSED, PASSED, QUIET, TUNNEL
 from ion.view.canvas import lines
 from ion.view.ground import Mesh, coarse, fine
 from ion.view.places import Places
@@ -15,7 +15,7 @@ from scenarios.course import Course
 from scenarios.verdicts.tracking import route_path
 from twin.world import SOFT, Obstacle
 
-GROUND, FAR_GROUND = "#c9c3ab", "#b9b499"
+CORRIDOR, GROUND, FAR_GROUND = "#c2a878", "#8f8a68", "#857f60"
 KINDS = {
     "tunnel": TUNNEL, "car": "#5b6f8c", "hay_bale": "#c59b3c", "tires": "#3d3b38",
     "gate_post": PASSED, "gate_flank": "#c96f3b", **dict.fromkeys(sorted(SOFT), EDGE),
@@ -30,7 +30,7 @@ def draw_course(scene: viser.SceneApi, course: Course, places: Places) -> None:
     line_m = course.waypoint_m
     _mesh(scene, "/ground/far", coarse(places, line_m), FAR_GROUND)
     inside, beside = fine(places, line_m, course.half_width_m)
-    _mesh(scene, "/ground/corridor", inside, SAND)
+    _mesh(scene, "/ground/corridor", inside, CORRIDOR)
     _mesh(scene, "/ground/beside", beside, GROUND)
     _draw_edges(scene, course, places)
     path = places.of_route(route_path(course).position_m, ABOVE_M)
@@ -42,13 +42,18 @@ def draw_gates(
     scene: viser.SceneApi, course: Course, places: Places, passed: set[int], missed: set[int]
 ) -> None:
     """A line from post to post: ahead, passed or missed."""
-    groups: dict[str, list[Floats]] = {PASSED: [], MISSED: [], AHEAD: []}
-    for k, gate in enumerate(course.gates):
-        color = PASSED if k in passed else MISSED if k in missed else AHEAD
-        groups[color].append(places.on_ground(np.stack([gate.left_m, gate.right_m]), ABOVE_M))
-    for name, (color, ends) in zip(("passed", "missed", "ahead"), groups.items(), strict=True):
-        if ends:
-            lines(scene, f"/gates/{name}", np.array(ends).reshape(-1, 2, 3), color, 5.0)
+    ends = [end for gate in course.gates for end in (gate.left_m, gate.right_m)]
+    if not ends:
+        return
+    gate_m = places.on_ground(np.array(ends), ABOVE_M).reshape(-1, 2, 3)
+    ahead = set(range(len(gate_m))) - passed - missed
+    for name, among, color in (
+        ("passed", passed, PASSED), ("missed", missed, MISSED), ("ahead", ahead, AHEAD),
+    ):  # fmt: skip
+        if among:
+            lines(scene, f"/gates/{name}", gate_m[sorted(among)], color, 5.0)
+        else:
+            scene.remove_by_name(f"/gates/{name}")
 
 
 def draw_obstacles(scene: viser.SceneApi, obstacles: Sequence[Obstacle]) -> None:

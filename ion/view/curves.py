@@ -84,7 +84,8 @@ def _plot(
         (uplot.Series(label="s"), *named, now),
         title=title,
         scales=_scales(0.0, 0.0, 1.0),
-        legend=uplot.Legend(show=True),
+        legend=uplot.Legend(show=True, live=False),
+        padding=(10, 14, 0, 0),
         height=HEIGHT_PX,
     )
 
@@ -105,7 +106,7 @@ def _update(
     low = min(0.0, *(float(c[:, 1].min(initial=0.0)) for c in (first, second)))
     high = max(float(c[:, 1].max(initial=0.0)) for c in (first, second))
     high = max(-low, high, least)
-    low = -high if low < 0.0 else 0.0
+    low = -high if low < -0.1 * least else 0.0
     x = np.sort(np.concatenate([at, [time_s, time_s + 1e-6]]))
     now = np.full(len(x), np.nan)
     k = int(np.searchsorted(x, time_s))

@@ -2,7 +2,9 @@
 
 from time import monotonic
 
+import numpy as np
 import viser
+from numpy.typing import NDArray
 
 from ion.recorded import Recorded
 from ion.view.cameras import CAMERAS, FREE
@@ -10,6 +12,7 @@ from ion.view.course_scene import draw_course, draw_gates
 from ion.view.panel import Panel
 from ion.view.places import Places, Pose
 from ion.view.sensor_scene import SensorScene
+from ion.view.shapes import rgb
 from ion.view.show import Show
 from ion.view.timeline import Timeline
 from ion.view.vehicle_scene import VehicleScene
@@ -17,10 +20,12 @@ from nav.parameters import Parameters
 from scenarios.course import Course
 from scenarios.vehicles import VEHICLES
 
+SKY = "#8fb4d6", "#e9eef0"
+"""From above to below."""
 FRAME_S = 0.08
 """From one picture to the next while it plays."""
-IDLE_S = 0.5
-"""While it stands: the tape may still grow."""
+IDLE_S = 0.2
+"""While it stands: more of the tape may have been read."""
 
 
 class Page:
@@ -69,7 +74,7 @@ class Page:
         show = self._show
         show.changed.clear()
         show.player.advance(wall_s, show.timeline.end_s, show.timeline.complete)
-        moment = show.timeline.at(show.player.time_s)
+        moment = show.timeline.at(max(show.player.time_s, show.timeline.start_s))
         pose = self._places.vehicle(moment)
         with self._server.atomic():
             if pose:
@@ -100,9 +105,17 @@ class Page:
             draw_gates(self._server.scene, self._course, self._places, *found.values())
 
 
+def _sky() -> NDArray[np.uint8]:
+    """Paler towards the ground, shape (n, 1, 3)."""
+    ends = np.array([rgb(color) for color in SKY], float)
+    share = np.linspace(0.0, 1.0, 128)[:, None, None]
+    return ((1.0 - share) * ends[0] + share * ends[1]).astype(np.uint8)
+
+
 def look(server: viser.ViserServer) -> None:
     """How the page looks as a whole."""
     server.gui.configure_theme(control_width="large", show_logo=False, show_share_button=False)
     server.gui.main_panel.dock_right()
     server.scene.set_up_direction("+z")
     server.scene.configure_default_lights(cast_shadow=False)
+    server.scene.set_background_image(_sky(), format="png")

@@ -90,6 +90,12 @@ class Timeline:
     """What is wrong with the tape, found while reading."""
     _roll: "_Roll" = field(default_factory=lambda: _Roll())
 
+    @property
+    def start_s(self) -> float:
+        """When it is first known where the vehicle is."""
+        known = [series.time_s[0] for series in (self.truth, self.ego) if series.time_s]
+        return min(known, default=0.0)
+
     def start(self) -> Thread:
         """Read the tape in a thread, to its end."""
         thread = Thread(target=self.read, name="tape", daemon=True)
