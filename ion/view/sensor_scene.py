@@ -119,7 +119,7 @@ class SensorScene:
         line = self._places.of_route(points, ABOVE_M["path"])
         selected = moment.decision and moment.decision.selected
         color = DECIDED if selected else TRACK
-        self._canvas.points("/path/points", line, color, 0.35)
+        self._canvas.points("/path/points", line, color, 0.24)
         self._canvas.lines("/path/line", segments(line), color, 3.0)
 
     def _tracks(self, timeline: Timeline, time_s: float) -> None:
