@@ -19,8 +19,8 @@ FLAGS = (
     "--disable-background-networking", "--disable-component-update", "--disable-sync",
     "--use-gl=angle", "--use-angle=swiftshader", "--enable-unsafe-swiftshader",
 )  # fmt: skip
-SIZE = {"width": 960, "height": 720}
-SCENE = {"x": 0, "y": 200, "width": 560, "height": 500}
+SIZE = {"width": 800, "height": 600}
+SCENE = np.s_[200:590, :400, :3]
 """What of the page is surely scene: left of the panel, below notices."""
 PATIENCE_MS = 60_000
 
@@ -52,7 +52,7 @@ def page(viewer):
         page.set_default_timeout(PATIENCE_MS)
         page.errors = []
         page.on("console", lambda m: m.type == "error" and page.errors.append(m.text))
-        page.on("pageerror", lambda error: page.errors.append(str(error)))
+        page.on("pageerror", lambda error: page.errors.append(error.stack))
         page.goto(viewer[1])
         page.get_by_text("Path-Point Keeping").first.wait_for()
         yield page
@@ -62,9 +62,8 @@ def page(viewer):
 def picture(page, name):
     """What the scene shows, shape (h, w, 3)."""
     SCREENS.mkdir(parents=True, exist_ok=True)
-    page.screenshot(path=SCREENS / f"{name}.png", timeout=PATIENCE_MS)
-    content = page.screenshot(clip=SCENE, timeout=PATIENCE_MS)
-    return imread(BytesIO(content), format="png")[..., :3]
+    content = page.screenshot(path=SCREENS / f"{name}.png", timeout=PATIENCE_MS)
+    return imread(BytesIO(content), format="png")[SCENE]
 
 
 def clock(page):
@@ -105,7 +104,7 @@ def press(page, label, button):
 
 
 def test_scene_is_drawn(page):
-    page.wait_for_timeout(3000)
+    page.wait_for_timeout(2000)
     assert len(np.unique(np.round(picture(page, "start") * 32).reshape(-1, 3), axis=0)) > 20
 
 
@@ -113,7 +112,7 @@ def test_scrubbing_shows_that_moment(page):
     before = picture(page, "before")
     scrub(page, 16)
     shows(page, "Obstacle Avoidance since 14.2 s")
-    page.wait_for_timeout(1500)
+    page.wait_for_timeout(1000)
     assert np.abs(picture(page, "scrubbed") - before).mean() > 0.01
 
 
@@ -138,12 +137,11 @@ def test_next_event_is_where_it_happened(page):
 def test_cameras_show_different_pictures(page):
     scrub(page, 16)
     seen = []
-    for camera in ("above", "driver's seat", "follow"):
+    for camera in ("above", "driver's seat"):
         choose(page, camera)
-        page.wait_for_timeout(1500)
-        seen.append(picture(page, camera.replace(" ", "_")))
-    for a, b in zip(seen, [*seen[1:], seen[0]], strict=True):
-        assert np.abs(a - b).mean() > 0.02
+        page.wait_for_timeout(1000)
+        seen.append(picture(page, camera.split("'")[0]))
+    assert np.abs(seen[0] - seen[1]).mean() > 0.02
 
 
 def test_browser_has_nothing_to_complain_about(page):

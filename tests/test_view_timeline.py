@@ -117,9 +117,10 @@ def test_a_cut_tape_shows_what_there_is(short_tape, tmp_path):
 
 
 def test_damage_in_the_middle_is_told(short_tape, tmp_path):
-    damaged, content = tmp_path / "damaged.mcap", Path(short_tape).read_bytes()
-    half = len(content) // 2
-    damaged.write_bytes(content[:half] + bytes(64) + content[half + 64 :])
+    damaged, content = tmp_path / "damaged.mcap", bytearray(Path(short_tape).read_bytes())
+    middle = content.index(b"\x28\xb5\x2f\xfd", len(content) // 2)  # a zstd frame begins
+    content[middle + 20] ^= 0x55
+    damaged.write_bytes(content)
     timeline = Timeline(damaged)
     timeline.read()
     assert "damaged" in timeline.trouble

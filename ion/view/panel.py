@@ -1,5 +1,7 @@
 """What one can press, and what one reads."""
 
+from time import monotonic
+
 import viser
 
 from ion.view.cameras import CAMERAS, FOLLOW, FREE
@@ -12,6 +14,8 @@ from ion.view.timeline import Moment
 from ion.view.words import sentence
 
 SPEEDS = tuple(f"{2.0**k:g}x" for k in range(-2, 5))
+READ_S = 0.3
+"""From one look of the panel to the next while it plays."""
 STEP_S = 0.02
 """The slider's: one call of the navigator."""
 assert SPEEDS[0] == f"{SLOWEST:g}x"
@@ -28,7 +32,9 @@ class Panel:
     """
 
     def __init__(self, gui: viser.GuiApi, show: Show, title: str) -> None:
-        self._gui, self._show, self._drawn_s = gui, show, -1.0
+        self._gui, self._show = gui, show
+        self._drawn: object = None
+        self._drawn_s = 0.0
         gui.set_panel_label(title)
         self._words = gui.add_markdown("")
         self._add_clock()
@@ -38,8 +44,12 @@ class Panel:
         self._curves = Curves(gui)
 
     def refresh(self, moment: Moment) -> None:
-        """Show a moment."""
+        """Show a moment; while it plays not more often than people read and browsers can follow."""
         timeline, player = self._show.timeline, self._show.player
+        state, now = (moment.time_s, timeline.end_s, player.playing), monotonic()
+        if state == self._drawn or (player.playing and now < self._drawn_s + READ_S):
+            return
+        self._drawn, self._drawn_s = state, now
         if timeline.end_s > self._slider.max:
             self._slider.max = timeline.end_s
         self._slider.value = min(round(moment.time_s, 3), self._slider.max)

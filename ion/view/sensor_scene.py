@@ -83,7 +83,7 @@ class SensorScene:
                 scan = None
             if self._new(name, scan):
                 points = self._hits(timeline, scan) if scan else np.zeros((0, 3))
-                self._canvas.points(f"/lidar/{k}", points, color, 0.11)
+                self._canvas.points(f"/lidar/{k}", points, color, 0.06)
 
     def _hits(self, timeline: Timeline, scan: LidarScan) -> Floats:
         """Where the beams ended, as seen from where the vehicle was then."""
@@ -103,7 +103,7 @@ class SensorScene:
         colors = (sure * rgb(SEEN) + (1.0 - sure) * 255.0).astype(np.uint8)
         cell_m = self._parameters.obstacle_map.cell_m
         points = self._places.of_route(where, ABOVE_M["cells"])
-        self._canvas.points("/map/cells", points, colors, cell_m)
+        self._canvas.points("/map/cells", points, colors, 0.5 * cell_m)
         real, safe = boundary_edges(where, self._parameters)
         self._canvas.lines("/map/boundaries/real", self._raised(real), REAL, 2.5)
         self._canvas.lines("/map/boundaries/safe", self._raised(safe), SAFE, 2.0)
@@ -119,7 +119,7 @@ class SensorScene:
         line = self._places.of_route(points, ABOVE_M["path"])
         selected = moment.decision and moment.decision.selected
         color = DECIDED if selected else TRACK
-        self._canvas.points("/path/points", line, color, 0.24)
+        self._canvas.points("/path/points", line, color, 0.14)
         self._canvas.lines("/path/line", segments(line), color, 3.0)
 
     def _tracks(self, timeline: Timeline, time_s: float) -> None:
