@@ -1,12 +1,12 @@
 # Everything runs in .venv, which the first target that needs it makes. No other tool is needed
-# than Python 3.11 and make.
+# than Python 3.11 and make; the tests of the web page also want a chromium, and skip without one.
 PYTHON ?= python3.11
 BIN := .venv/bin
 PIP := $(BIN)/pip install -q --disable-pip-version-check -c constraints.txt
 
-.PHONY: setup nqe test test-slow check bench
+.PHONY: setup nqe browser test test-slow check bench
 
-setup: .venv/.dev
+setup: .venv/.dev browser
 
 .venv/.base: pyproject.toml constraints.txt
 	$(PYTHON) -m venv .venv
@@ -17,16 +17,19 @@ setup: .venv/.dev
 	$(PIP) -e '.[dev]'
 	@touch $@
 
+browser:
+	@bash tools/browser.sh
+
 nqe: .venv/.base
 	$(BIN)/ion drive nqe --seed 0 --out runs
 
-test: .venv/.dev
+test: .venv/.dev browser
 	$(BIN)/pytest -n auto
 
 test-slow: .venv/.dev
 	$(BIN)/pytest -m slow
 
-check: .venv/.dev
+check: .venv/.dev browser
 	$(BIN)/ruff check
 	$(BIN)/pyright
 	$(BIN)/lint-imports

@@ -33,6 +33,7 @@ def _command() -> int:
     from ion.options import Options
     from ion.replay.options import Options as ReplayOptions
     from ion.report.options import Options as ReportOptions
+    from ion.view.options import Options as ViewOptions
 
     app = tyro.extras.SubcommandApp()
 
@@ -70,6 +71,13 @@ def _command() -> int:
         from ion.report import command
 
         return command.report(options)
+
+    @app.command
+    def view(options: Annotated[ViewOptions, tyro.conf.arg(name="")]) -> int:
+        """Show a recorded drive as a web page, moment by moment."""
+        from ion.view import command
+
+        return command.view(options)
 
     @app.command
     def states() -> int:

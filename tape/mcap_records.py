@@ -28,7 +28,7 @@ _READERS: dict[int, Callable[[ReadDataStream], Any]] = {
 """All other records are passed over."""
 
 
-class Packed(NamedTuple):
+class Raw(NamedTuple):
     """A message of any topic, not decoded."""
 
     channel_id: int
@@ -68,7 +68,7 @@ def _record(opcode: int, data: bytes, at: int, length: int) -> tuple[Any, ...]:
     """The record of these bytes, if it is of a kind that is looked at."""
     if opcode == Opcode.MESSAGE:
         channel_id, _, log_time, _ = _MESSAGE.unpack_from(data, at)
-        return (Packed(channel_id, log_time, data[at + _MESSAGE.size : at + length]),)
+        return (Raw(channel_id, log_time, data[at + _MESSAGE.size : at + length]),)
     if opcode in _READERS:
         return (_READERS[opcode](ReadDataStream(_Whole(data[at : at + length]))),)
     return ()

@@ -3,22 +3,42 @@
 import os
 import struct
 from collections.abc import Iterator
-from typing import Any, BinaryIO
+from typing import Any, BinaryIO, NamedTuple
 
 from mcap.exceptions import EndOfFile, McapError
 from mcap.records import Attachment, Channel, Chunk, Header, Metadata, Schema
 from mcap.stream_reader import CRCValidationError
 from zstandard import ZstdError
 
+from nav.messages import Message as BoundaryMessage
 from tape.codec import KINDS, decode
 from tape.errors import TapeError
-from tape.mcap_records import MAGIC, Packed, records, unpacked
+from tape.mcap_records import MAGIC, Raw, records, unpacked
 from tape.record import PREFIX, PROFILE, Record
 from tape.schemas import schema_name
+from tape.truth import TrueState
 
 Path = str | os.PathLike[str]
 
 _KINDS = {schema_name(kind): kind for kind in KINDS}
+
+
+class Packed(NamedTuple):
+    """One line of the tape whose message is still bytes: most are never looked at."""
+
+    topic: str
+    delivery_ns: int
+    kind: Any
+    """The message's type."""
+    payload: bytes
+
+    def message(self) -> BoundaryMessage | TrueState:
+        """Unpack it.
+
+        Raises:
+            CodecError: the bytes are no such message.
+        """
+        return decode(self.kind, self.payload)
 
 
 def read(path: Path, prefix: str | tuple[str, ...] = PREFIX) -> Iterator[Record]:
@@ -31,13 +51,23 @@ def read(path: Path, prefix: str | tuple[str, ...] = PREFIX) -> Iterator[Record]
     Raises:
         TapeError: no file, no MCAP file, no tape of ours, or damage before the end.
     """
+    for item in read_packed(path, prefix):
+        yield Record(item.topic, item.delivery_ns, item.message(), item.payload)
+
+
+def read_packed(path: Path, prefix: str | tuple[str, ...] = PREFIX) -> Iterator[Packed]:
+    """As `read`, without unpacking the messages.
+
+    Raises:
+        TapeError: as `read`.
+    """
     schemas: dict[int, str] = {}
     channels: dict[int, tuple[str, Any]] = {}
     for item in _items(path):
-        if isinstance(item, Packed):
+        if isinstance(item, Raw):
             if item.channel_id in channels:
                 topic, kind = channels[item.channel_id]
-                yield Record(topic, item.log_time, decode(kind, item.data), item.data)
+                yield Packed(topic, item.log_time, kind, item.data)
         elif isinstance(item, Schema):
             schemas[item.id] = item.name
         elif isinstance(item, Channel) and item.topic.startswith(prefix):

@@ -1,5 +1,25 @@
-"""What all tests share: the processor's settings, made before numpy loads, as the command does."""
+"""What all tests share: the processor's settings, made before numpy loads, as the command does; and
+the tape of a short drive."""
+
+import pytest
 
 from scenarios.processor import fix_processor
 
 fix_processor()
+
+SHORT_S = 17.0
+"""Long enough for Obstacle Avoidance in the dead end."""
+
+
+@pytest.fixture(scope="session")
+def short_tape(tmp_path_factory):
+    """The tape of ION's first seconds in the dead end; the drive was interrupted."""
+    from ion.courses import scenario_source
+    from ion.job import Job
+
+    def stop(episode, records):
+        if episode.time_s >= SHORT_S:
+            raise KeyboardInterrupt
+
+    job = Job(scenario_source("dead_end"), tmp_path_factory.mktemp("short"))
+    return job.drive(0, [stop])["log"]

@@ -61,7 +61,7 @@ def waveform(ticks: list[Tick], name: str) -> Waveform:
     )
 
 
-def _both(tick: Tick, kind: str) -> tuple[Message, Message] | None:
+def _both(tick: Tick, kind: str) -> tuple[object, object] | None:
     """The message of a kind on the tape and in the replay."""
     logged = (item.message for item in tick.logged)
     pair = [

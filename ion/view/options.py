@@ -1,0 +1,21 @@
+"""The arguments of `ion view`, as typed."""
+
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Annotated
+
+from tyro.conf import Positional, arg
+
+LOCAL = "127.0.0.1"
+
+
+@dataclass(frozen=True)
+class Options:
+    """What one can ask of the viewer."""
+
+    log: Annotated[Positional[Path], arg(metavar="LOG")]
+    """A tape, as `ion drive` writes it; of a drive that was killed too."""
+    port: Annotated[int | None, arg(metavar="N")] = None
+    """Of the web page. Default: 8080, or the next that is free."""
+    host: Annotated[str, arg(metavar="ADDRESS")] = LOCAL
+    """Where the page can be reached from. Default: this machine only; 0.0.0.0: from everywhere."""

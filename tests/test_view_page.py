@@ -1,0 +1,164 @@
+"""The page of `ion view` in a real browser: it is drawn, plays, scrubs, jumps and looks around."""
+
+import re
+import shutil
+import signal
+import subprocess
+import sys
+from io import BytesIO
+from pathlib import Path
+
+import numpy as np
+import pytest
+from matplotlib.image import imread
+
+ION = str(Path(sys.executable).with_name("ion"))
+SCREENS = Path(__file__).parent.parent / "runs" / "screens"
+FLAGS = (
+    "--headless", "--no-sandbox", "--disable-gpu", "--disable-quic", "--no-first-run",
+    "--disable-background-networking", "--disable-component-update", "--disable-sync",
+    "--use-gl=angle", "--use-angle=swiftshader", "--enable-unsafe-swiftshader",
+)  # fmt: skip
+SIZE = {"width": 800, "height": 600}
+SCENE = np.s_[200:590, :400, :3]
+"""What of the page is surely scene: left of the panel, below notices."""
+PATIENCE_MS = 60_000
+
+
+@pytest.fixture(scope="module")
+def viewer(short_tape):
+    """A running `ion view`: its process and its address."""
+    command = [ION, "view", short_tape, "--host", "127.0.0.1"]
+    process = subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
+    line = process.stdout.readline()
+    found = re.match(r"(http://127\.0\.0\.1:\d+) ", line)
+    assert found, line + process.stderr.read()
+    yield process, found[1]
+    process.kill()
+    process.wait()
+
+
+@pytest.fixture(scope="module")
+def page(viewer):
+    names = ("chromium", "chromium-browser", "google-chrome")
+    path = next(filter(None, map(shutil.which, names)), None)
+    if path is None:
+        pytest.skip("no chromium here; tools/browser.sh installs it where it may")
+    from playwright.sync_api import sync_playwright
+
+    with sync_playwright() as playwright:
+        browser = playwright.chromium.launch(executable_path=path, args=FLAGS)
+        page = browser.new_page(viewport=SIZE)
+        page.set_default_timeout(PATIENCE_MS)
+        page.errors = []
+        page.on("console", lambda m: m.type == "error" and page.errors.append(m.text))
+        page.on("pageerror", lambda error: page.errors.append(error.stack))
+        page.goto(viewer[1])
+        page.get_by_text("Path-Point Keeping").first.wait_for()
+        yield page
+        browser.close()
+
+
+def picture(page, name):
+    """What the scene shows, shape (h, w, 3)."""
+    SCREENS.mkdir(parents=True, exist_ok=True)
+    content = page.screenshot(path=SCREENS / f"{name}.png", timeout=PATIENCE_MS)
+    return imread(BytesIO(content), format="png")[SCENE]
+
+
+def clock(page):
+    return page.locator("input[inputmode=decimal]").first
+
+
+def time_s(page):
+    return float(clock(page).input_value())
+
+
+def scrub(page, to_s):
+    clock(page).fill(str(to_s))
+    clock(page).press("Enter")
+
+
+def until(page, reached):
+    """Wait for the clock."""
+    for _ in range(PATIENCE_MS // 100):
+        if reached(time_s(page)):
+            return
+        page.wait_for_timeout(100)
+    raise AssertionError(f"the clock stands at {time_s(page)} s")
+
+
+def shows(page, text):
+    page.get_by_text(text).first.wait_for()
+
+
+def choose(page, camera):
+    page.locator("input[role=combobox]").last.click()
+    page.get_by_role("option", name=camera).click()
+
+
+def press(page, label, button):
+    """A button in the row of a label."""
+    row = page.get_by_text(label, exact=True).locator("xpath=ancestor::*[.//button][1]")
+    row.get_by_role("button", name=button).click()
+
+
+def test_scene_is_drawn(page):
+    page.wait_for_timeout(2000)
+    assert len(np.unique(np.round(picture(page, "start") * 32).reshape(-1, 3), axis=0)) > 20
+
+
+def test_scrubbing_shows_that_moment(page):
+    before = picture(page, "before")
+    scrub(page, 16)
+    shows(page, "Obstacle Avoidance since 14.2 s")
+    page.wait_for_timeout(1000)
+    assert np.abs(picture(page, "scrubbed") - before).mean() > 0.01
+
+
+def test_playing_moves_time(page):
+    scrub(page, 5)
+    page.get_by_role("button", name="Play").click()
+    until(page, lambda at_s: at_s > 6.0)
+    page.get_by_role("button", name="Pause").click()
+    page.get_by_role("button", name="Play").wait_for()
+    assert 6.0 < time_s(page) < 17.1
+
+
+def test_next_event_is_where_it_happened(page):
+    scrub(page, 5)
+    press(page, "event", "next")
+    shows(page, "14.2 s: obstacle avoidance: obstacle on the smooth path")
+    until(page, lambda at_s: at_s == pytest.approx(14.2))
+    press(page, "decision", "forward")
+    until(page, lambda at_s: at_s == pytest.approx(14.3))
+
+
+def test_cameras_show_different_pictures(page):
+    scrub(page, 16)
+    seen = []
+    for camera in ("above", "driver's seat"):
+        choose(page, camera)
+        page.wait_for_timeout(1000)
+        seen.append(picture(page, camera.split("'")[0]))
+    assert np.abs(seen[0] - seen[1]).mean() > 0.02
+
+
+def test_browser_has_nothing_to_complain_about(page):
+    assert page.errors == []
+
+
+def test_interrupt_ends_it_quietly(viewer):
+    process, _ = viewer
+    process.send_signal(signal.SIGINT)
+    _, errors = process.communicate(timeout=20)
+    assert process.returncode in (0, 130)
+    assert "Traceback" not in errors
+
+
+def test_a_foreign_file_is_refused_in_one_line(tmp_path):
+    log = tmp_path / "foreign.mcap"
+    log.write_text("no tape")
+    done = subprocess.run([ION, "view", log], capture_output=True, text=True, timeout=60)
+    assert done.returncode == 2
+    assert re.fullmatch(r"ion: .*not a tape; expected .*\n", done.stderr)
