@@ -11,7 +11,6 @@ from matplotlib.figure import Figure
 
 from ion.replay.comparison import Comparison, Moved
 from ion.style import AHEAD, DECIDED, GOAL, INK, QUIET, REAL, SAFE, SEEN, TUNNEL, new_figure, plain
-from nav.messages import Message
 from scenarios.replay import Tick
 
 WIDTH_IN, PANEL_IN, HEAD_IN = 13.0, 1.55, 1.5
