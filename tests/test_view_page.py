@@ -104,8 +104,12 @@ def press(page, label, button):
 
 
 def test_scene_is_drawn(page):
-    page.wait_for_timeout(2000)
-    assert len(np.unique(np.round(picture(page, "start") * 32).reshape(-1, 3), axis=0)) > 20
+    for _ in range(20):  # it fades in
+        colors = np.round(picture(page, "start") * 32).reshape(-1, 3)
+        if len(np.unique(colors, axis=0)) > 20:
+            return
+        page.wait_for_timeout(500)
+    raise AssertionError("the scene stays empty: see runs/screens/start.png")
 
 
 def test_scrubbing_shows_that_moment(page):

@@ -37,7 +37,8 @@ def view(options: Options) -> int:
     except KeyboardInterrupt:
         print()
     finally:
-        server.stop()
+        with redirect_stdout(StringIO()):
+            server.stop()
     return 0
 
 
