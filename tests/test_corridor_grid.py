@@ -54,8 +54,9 @@ def test_a_map_that_moves_sees_what_a_new_one_sees() -> None:
 def test_what_was_drawn_is_not_drawn_again(monkeypatch: pytest.MonkeyPatch) -> None:
     moving = grid()
     moving.levels(at(10.0, 0.0), 0, 2)
+    expected = grid().levels(at(18.0, 0.0), 0, 2)
     monkeypatch.delattr(corridor_grid, "_draw")
-    moving.levels(at(18.0, 0.0), 0, 2)
+    np.testing.assert_array_equal(moving.levels(at(18.0, 0.0), 0, 2), expected)
 
 
 def test_only_the_named_segments_count() -> None:

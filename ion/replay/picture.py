@@ -10,18 +10,21 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from ion.replay.comparison import Comparison, Moved
-from ion.style import AHEAD, DECIDED, GOAL, INK, QUIET, REAL, SAFE, SEEN, TUNNEL, new_figure, plain
+from ion.style import (
+    AHEAD,
+    DECIDED,
+    INK,
+    QUIET,
+    STATES,
+    new_figure,
+    plain,
+)
 from scenarios.replay import Tick
 
 WIDTH_IN, PANEL_IN, HEAD_IN = 13.0, 1.55, 1.5
 PANELS = 6
 """Fields that are drawn, of those that moved most for what they are."""
 STATE = "Decision.state"
-COLOURS = {
-    "path_point_keeping": SAFE, "obstacle_avoidance": SEEN, "tunnel_mode": TUNNEL,
-    "road_following": REAL, "robotic_operations": GOAL, "rollback": DECIDED,
-}  # fmt: skip
-"""Of the states; any other is grey."""
 
 
 class Waveform(NamedTuple):
@@ -99,10 +102,10 @@ def _draw_states(axes: Axes, states: Waveform) -> None:
     axes.set_yticks([1.0, 0.0], ["logged", "now"])
     for y, words in ((1.0, states.logged), (0.0, states.now)):
         for word, start_s, end_s in _stretches(states.time_s, words):
-            colour = COLOURS.get(word, AHEAD)
+            colour = STATES.get(word, AHEAD)
             axes.barh(y, end_s - start_s, 0.8, start_s, color=colour, linewidth=0)
     for word in dict.fromkeys(states.logged + states.now):
-        axes.barh(0.0, 0.0, 0.0, color=COLOURS.get(word, AHEAD), label=word.replace("_", " "))
+        axes.barh(0.0, 0.0, 0.0, color=STATES.get(word, AHEAD), label=word.replace("_", " "))
     if states.time_s:
         axes.legend(loc="lower left", bbox_to_anchor=(0, 1), frameon=False, ncols=7, fontsize=8.5)
 

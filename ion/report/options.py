@@ -7,6 +7,7 @@ from typing import Annotated
 from tyro.conf import Positional, arg
 
 from ion.errors import UsageError
+from ion.out_file import check_file
 
 
 @dataclass(frozen=True)
@@ -23,13 +24,10 @@ def page_path(options: Options) -> Path:
     """Where the page goes.
 
     Raises:
-        UsageError: the page would replace the tape, or its folder cannot be made.
+        UsageError: the page would replace the tape, or it cannot be written.
     """
     path = options.out or options.log.with_suffix(".html")
     if path.resolve() == options.log.resolve():
         raise UsageError(f"--out {path}: is the tape itself; expected another file")
-    try:
-        path.parent.mkdir(parents=True, exist_ok=True)
-    except OSError as error:
-        raise UsageError(f"--out {path}: cannot be written: {error.strerror}") from error
+    check_file(path)
     return path

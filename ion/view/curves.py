@@ -7,7 +7,7 @@ import numpy as np
 import viser
 from viser import uplot
 
-from ion.style import AHEAD, DECIDED, GOAL, INK, QUIET, REAL, SAFE, SEEN, TRACK
+from ion.style import AHEAD, DECIDED, INK, STATES, TRACK
 from ion.view.series import Columns
 from ion.view.timeline import Timeline
 from ion.view.words import state_name
@@ -15,10 +15,6 @@ from nav.messages import Floats
 
 BEFORE_S, AFTER_S = 25.0, 10.0
 """What the curves show around the moment."""
-STATE_COLORS = {
-    "path_point_keeping": SAFE, "obstacle_avoidance": SEEN, "road_following": QUIET,
-    "tunnel_mode": REAL, "robotic_operations": GOAL, "rollback": "#8c564b", "alarm": DECIDED,
-}  # fmt: skip
 HEIGHT_PX = 150
 
 
@@ -60,7 +56,7 @@ width:2px;background:{INK}"></i>'
 
 def color(state: str) -> str:
     """Of a state."""
-    return STATE_COLORS.get(state, AHEAD)
+    return STATES.get(state, AHEAD)
 
 
 def _legend(timeline: Timeline) -> str:
