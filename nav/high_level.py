@@ -79,6 +79,10 @@ class HighLevelController:
         self._grid: WideGrid | None = None
         """What was seen since the trouble began."""
 
+    def retune(self, parameters: Parameters) -> None:
+        """Decide by other steering and speed rules from now on: nothing here is made from them."""
+        self.parameters = self.machine.parameters = parameters
+
     def decide(
         self, time_ns: int, senses: Senses, obstacles: ObstacleMap
     ) -> tuple[Command, Decision]:
