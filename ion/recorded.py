@@ -6,12 +6,14 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from ion.courses import Source, scenario_names
+from nav.parameters import parameters_from
 from scenarios.events import Event
 from tape.errors import TapeError
 from tape.reader import attachments, metadata
 
 if TYPE_CHECKING:
     from scenarios.course import Course
+    from scenarios.episode import Episode
 
 FIGURES, EVENTS = "figures.json", "events.json"
 """Attached to a tape when the drive has ended: a drive that was killed has none."""
@@ -56,6 +58,18 @@ class Recorded:
             return _source(self.said, self.files).course(self.seed)
         except (KeyError, ValueError) as error:
             raise TapeError(f"{self.log}: its course cannot be drawn: {error}") from error
+
+    def episode(self) -> "Episode":
+        """The drive, at its start again: same course, seed, ablations and parameters.
+
+        Raises:
+            TapeError: as `course`.
+        """
+        from scenarios.episode import Episode
+
+        course = self.course()
+        parameters = parameters_from(self.files, course.vehicle)
+        return Episode(course, self.seed, tuple(self.said["ablate"].split()), parameters)
 
 
 def recorded(log: Path) -> Recorded:

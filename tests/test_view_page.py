@@ -26,13 +26,15 @@ PATIENCE_MS = 60_000
 
 
 @pytest.fixture(scope="module")
-def viewer(short_tape):
+def viewer(short_tape, tmp_path_factory):
     """A running `ion view`: its process and its address."""
-    command = [ION, "view", short_tape, "--host", "127.0.0.1"]
+    folder = str(tmp_path_factory.mktemp("tuned"))
+    command = [ION, "view", short_tape, "--host", "127.0.0.1", "--parameters", folder]
     process = subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
     line = process.stdout.readline()
     found = re.match(r"(http://127\.0\.0\.1:\d+) ", line)
     assert found, line + process.stderr.read()
+    process.folder = Path(folder)
     yield process, found[1]
     process.kill()
     process.wait()
@@ -92,9 +94,11 @@ def shows(page, text):
     page.get_by_text(text).first.wait_for()
 
 
-def choose(page, camera):
-    page.locator("input[role=combobox]").last.click()
-    page.get_by_role("option", name=camera).click()
+def choose(page, label, option):
+    """From a list."""
+    beside = page.get_by_text(label, exact=True).locator("xpath=following::input[@role='combobox']")
+    beside.first.click()
+    page.get_by_role("option", name=option).click()
 
 
 def press(page, label, button):
@@ -142,10 +146,40 @@ def test_cameras_show_different_pictures(page):
     scrub(page, 16)
     seen = []
     for camera in ("above", "driver's seat"):
-        choose(page, camera)
+        choose(page, "camera", camera)
         page.wait_for_timeout(1000)
         seen.append(picture(page, camera.split("'")[0]))
     assert np.abs(seen[0] - seen[1]).mean() > 0.02
+
+
+def tuned(page, term, points):
+    """Type the breakpoints of a term."""
+    page.get_by_text(f"{term} =", exact=True).locator("xpath=following::input[1]").fill(points)
+
+
+def test_a_breakpoint_changes_the_decision(page):
+    scrub(page, 16.7)
+    shows(page, "16.7 s:")
+    page.get_by_text("tune", exact=True).click()
+    choose(page, "variable", "speed: anti_collision, D1_m")
+    tuned(page, "DA", "4.0, 3.0")
+    shows(page, "must increase strictly")
+    tuned(page, "M", "7.0, 20.0, 29.0")
+    shows(page, re.compile(r"Tuned:.*(it would have decided|would have steered)"))
+    picture(page, "tuned")
+
+
+def test_the_rest_of_the_run_is_driven_again(page, viewer):
+    page.get_by_role("button", name="Rest of the run").click()
+    shows(page, re.compile(r"As tuned, from 16.7 s on"))
+
+
+def test_what_was_tuned_is_shown_and_saved(page, viewer):
+    page.get_by_role("button", name="Show what changed").click()
+    shows(page, re.compile("speed.toml as tuned"))
+    page.get_by_role("button", name="Write it").click()
+    shows(page, "Written:")
+    assert "points = [7.0, 20.0, 29.0]" in (viewer[0].folder / "speed.toml").read_text()
 
 
 def test_browser_has_nothing_to_complain_about(page):

@@ -29,7 +29,8 @@ def view(options: Options) -> int:
     course = found.course()
     with redirect_stdout(StringIO()):  # it says more than one wants to know
         server = viser.ViserServer(options.host, port, verbose=False)
-    page = Page(server, found, course, parameters_from(found.files, course.vehicle), timeline)
+    parameters = parameters_from(found.files, course.vehicle)
+    page = Page(server, found, course, parameters, timeline, options.parameters)
     timeline.start()
     _tell(options.host, server.get_port())
     try:

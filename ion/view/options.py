@@ -17,5 +17,7 @@ class Options:
     """A tape, as `ion drive` writes it; of a drive that was killed too."""
     port: Annotated[int | None, arg(metavar="N")] = None
     """Of the web page. Default: 8080, or the next that is free."""
+    parameters: Annotated[Path, arg(metavar="FOLDER")] = Path("runs/parameters")
+    """Where parameter files go that were tuned in the page."""
     host: Annotated[str, arg(metavar="ADDRESS")] = LOCAL
     """Where the page can be reached from. Default: this machine only; 0.0.0.0: from everywhere."""

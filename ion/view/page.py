@@ -1,5 +1,6 @@
 """The page: a scene, a panel beside it, and the loop that moves both on."""
 
+from pathlib import Path
 from time import monotonic
 
 import numpy as np
@@ -9,6 +10,7 @@ from numpy.typing import NDArray
 from ion.recorded import Recorded
 from ion.view.cameras import CAMERAS, FREE
 from ion.view.course_scene import draw_course, draw_gates
+from ion.view.decide.deciding import Deciding
 from ion.view.panel import Panel
 from ion.view.places import Places, Pose
 from ion.view.sensor_scene import SensorScene
@@ -37,6 +39,7 @@ class Page:
         course: that was driven.
         parameters: the navigator's.
         timeline: of the tape; it may still be read.
+        tuned: where tuned parameter files go.
     """
 
     def __init__(
@@ -46,6 +49,7 @@ class Page:
         course: Course,
         parameters: Parameters,
         timeline: Timeline,
+        tuned: Path,
     ) -> None:
         self._server, self._show = server, Show(recorded, timeline)
         self._places, self._course = Places(course), course
@@ -57,6 +61,7 @@ class Page:
         self._vehicle = VehicleScene(server.scene, course.vehicle, parameters.vehicle, height_m)
         self._sensors = SensorScene(server.scene, self._places, parameters)
         self._panel = Panel(server.gui, self._show, f"{course.name}, seed {recorded.seed}")
+        self._deciding = Deciding(server, recorded, self._show, tuned)
         server.on_client_connect(lambda client: self._aim(client, self._panel.camera))
 
     def run(self) -> None:
@@ -82,6 +87,7 @@ class Page:
                 self._sensors.show(show.timeline, moment, self._panel.hidden)
             self._draw_gates(moment.time_s)
             self._panel.refresh(moment)
+            self._deciding.refresh(moment)
         self._pose = pose
         for client in self._server.get_clients().values():
             self._aim(client, self._panel.camera)
