@@ -2,14 +2,16 @@
 
 import sys
 import time
+from collections.abc import Sequence
 from typing import Any
 
 from rich.console import Console
 
 from ion.job import Job
 from ion.options import Options, job_of, seeds_of
-from ion.telling import Bar, as_json, line, summary, table
+from ion.telling import Bar, Result, as_json, line, summary, table
 from scenarios.batch import many
+from scenarios.run import Watch
 
 FINISHED, NOT_FINISHED, INTERRUPTED = 0, 1, 130
 
@@ -22,21 +24,34 @@ def drive(options: Options) -> int:
         NavError: the route file is wrong.
     """
     seeds, job = seeds_of(options), job_of(options)
+    if options.view:
+        return _shown(job, seeds[0], options)
     if options.seeds is None:
-        return _one(job, seeds[0], options.json)
+        return _code([_one(job, seeds[0], options.json)])
     return _many(job, seeds, options)
 
 
-def _one(job: Job, seed: int, json: bool) -> int:
+def _shown(job: Job, seed: int, options: Options) -> int:
+    """Drive while people look, and until they have looked enough."""
+    from ion.view.live import live
+
+    with live(job, seed, options.host, options.port) as page:
+        result = _one(job, seed, options.json, [page])
+        page.ended(result["log"])
+        page.stay()
+    return _code([result])
+
+
+def _one(job: Job, seed: int, json: bool, watches: Sequence[Watch] = ()) -> Result:
     with Bar(f"{job.source.title} {seed}") as bar:
-        result = job.drive(seed, [bar])
+        result = job.drive(seed, [bar, *watches])
     if json:
         print(as_json(result))
     else:
         Console().print(table(result))
         for what, path in (("tape", result["log"]), ("map", result["map"])):
             print(f"{what}: {path or 'not kept'}")
-    return _code([result])
+    return result
 
 
 def _many(job: Job, seeds: list[int], options: Options) -> int:

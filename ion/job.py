@@ -12,6 +12,7 @@ from scenarios.processor import fingerprint
 from scenarios.run import Watch, run
 
 if TYPE_CHECKING:
+    from ion.recorded import Recorded
     from ion.trace import Trace
     from scenarios.course import Course
     from scenarios.episode import Episode
@@ -76,17 +77,32 @@ class Job:
         most = MOST if self.failures_only else 0
         return HeldBack(lambda: self._writer(course, seed, path), most)
 
+    def recorded(self, seed: int) -> "Recorded":
+        """What the tape of this drive says before the first tick."""
+        from ion.recorded import Recorded
+
+        course, path = self.source.course(seed), self.path(seed, ".mcap")
+        return Recorded(path, self._said(course, seed), self._attached(course), {}, ())
+
     def _writer(self, course: "Course", seed: int, path: Path) -> "TapeWriter":
-        from scenarios.parameter_files import parameter_texts
         from tape.writer import TapeWriter
 
+        attached, said = self._attached(course), self._said(course, seed)
+        return TapeWriter(path, attached, said, self.log, _view(course.vehicle))
+
+    def _said(self, course: "Course", seed: int) -> dict[str, str]:
         said = {"scenario": self.source.title, "seed": str(seed), "ablate": " ".join(self.ablate)}
-        said |= {"vehicle": course.vehicle, **self.source.said}
+        return said | {"vehicle": course.vehicle, **self.source.said} | fingerprint()
+
+    def _attached(self, course: "Course") -> dict[str, str]:
+        """The route, the parameters, and the scenario if there is one."""
+        from scenarios.parameter_files import parameter_texts
+
         attached = {course.route_name: course.route_text, **parameter_texts(course.vehicle)}
         if self.source.scenario:
             folder = files("scenarios") / self.source.scenario
             attached["scenario.toml"] = (folder / "scenario.toml").read_text(encoding="utf-8")
-        return TapeWriter(path, attached, said | fingerprint(), self.log, _view(course.vehicle))
+        return attached
 
     def _draw(self, course: "Course", trace: "Trace", episode: "Episode", seed: int) -> str:
         from ion.map_picture import draw_map

@@ -11,6 +11,7 @@ from tyro.conf import Positional, arg
 from ion.courses import Source, route_source, scenario_names, scenario_source
 from ion.errors import UsageError
 from ion.job import Job
+from ion.view.options import LOCAL
 
 Log = Literal["full", "inputs", "light", "off"]
 MAX_SEED = 2**32 - 1
@@ -41,6 +42,12 @@ class Options:
     seeds the tapes of failures only."""
     route: Annotated[Path | None, arg(metavar="FILE")] = None
     """A route definition file (RDDF) to drive instead of a scenario."""
+    view: bool = False
+    """Show the drive as a web page while it is driven, as `ion view` does afterwards."""
+    port: Annotated[int | None, arg(metavar="N")] = None
+    """With --view: of the page. Default: 8080, or the next that is free."""
+    host: Annotated[str, arg(metavar="ADDRESS")] = LOCAL
+    """With --view: where it can be reached from. Default: this machine only."""
     first: Annotated[int | None, arg(name="from", metavar="WAYPOINT")] = None
     """With --route: number of the waypoint to begin at."""
     last: Annotated[int | None, arg(name="to", metavar="WAYPOINT")] = None
@@ -60,6 +67,8 @@ def job_of(options: Options) -> Job:
     """
     source = _source(options)
     _check_ablations(options.ablate, source)
+    if options.view and options.seeds is not None:
+        raise UsageError("--view: expected one drive, --seed N, not --seeds")
     if options.jobs < 1:
         raise UsageError(f"--jobs {options.jobs}: expected 1 or more")
     check_folder(options.out)

@@ -70,5 +70,3 @@ def test_only_changed_files_are_saved_and_replay_takes_them(tuning, tmp_path):
     assert "+L = { shape" in tuning.diff()
     assert [path.name for path in tuning.save(tmp_path / "new")] == ["speed.toml"]
     assert "points = [20.0, 39.0]" in texts_of(tmp_path / "new", "ion")["speed.toml"]
-
-

@@ -10,12 +10,12 @@ import pytest
 from ion.errors import UsageError
 from ion.recorded import recorded
 from ion.view.cameras import CAMERAS
-from ion.view.command import free_port
 from ion.view.marks import events, following, preceding, replannings
 from ion.view.places import Places, true_pose
 from ion.view.player import Player
 from ion.view.sensor_scene import boundary_edges
 from ion.view.series import Columns
+from ion.view.server import free_port
 from ion.view.shapes import box, cylinder, edges
 from ion.view.timeline import Timeline
 from ion.view.words import sentence

@@ -7,7 +7,6 @@ import numpy as np
 import viser
 from numpy.typing import NDArray
 
-from ion.recorded import Recorded
 from ion.view.cameras import CAMERAS, FREE
 from ion.view.course_scene import draw_course, draw_gates
 from ion.view.decide.deciding import Deciding
@@ -16,10 +15,8 @@ from ion.view.places import Places, Pose
 from ion.view.sensor_scene import SensorScene
 from ion.view.shapes import rgb
 from ion.view.show import Show
-from ion.view.timeline import Timeline
 from ion.view.vehicle_scene import VehicleScene
-from nav.parameters import Parameters
-from scenarios.course import Course
+from nav.parameters import parameters_from
 from scenarios.vehicles import VEHICLES
 
 SKY = "#8fb4d6", "#e9eef0"
@@ -35,24 +32,18 @@ class Page:
 
     Args:
         server: of the web page.
-        recorded: what stands on the tape beside its messages.
-        course: that was driven.
-        parameters: the navigator's.
-        timeline: of the tape; it may still be read.
+        show: what is shown.
         tuned: where tuned parameter files go.
+
+    Raises:
+        TapeError: the course that was driven is not known here.
     """
 
-    def __init__(
-        self,
-        server: viser.ViserServer,
-        recorded: Recorded,
-        course: Course,
-        parameters: Parameters,
-        timeline: Timeline,
-        tuned: Path,
-    ) -> None:
-        self._server, self._show = server, Show(recorded, timeline)
-        self._places, self._course = Places(course), course
+    def __init__(self, server: viser.ViserServer, show: Show, tuned: Path) -> None:
+        self._server, self._show = server, show
+        self._course = course = show.recorded.course()
+        parameters = parameters_from(show.recorded.files, course.vehicle)
+        self._places = Places(course)
         self._pose: Pose | None = None
         self._gates: set[int] | None = None
         look(server)
@@ -60,8 +51,8 @@ class Page:
         height_m = VEHICLES[course.vehicle].height_m
         self._vehicle = VehicleScene(server.scene, course.vehicle, parameters.vehicle, height_m)
         self._sensors = SensorScene(server.scene, self._places, parameters)
-        self._panel = Panel(server.gui, self._show, f"{course.name}, seed {recorded.seed}")
-        self._deciding = Deciding(server, recorded, self._show, tuned)
+        self._panel = Panel(server.gui, self._show, f"{course.name}, seed {show.recorded.seed}")
+        self._deciding = Deciding(server, show, tuned)
         server.on_client_connect(lambda client: self._aim(client, self._panel.camera))
 
     def run(self) -> None:

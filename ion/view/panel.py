@@ -7,19 +7,20 @@ import viser
 from ion.view.cameras import CAMERAS, FOLLOW, FREE
 from ion.view.curves import Curves, band
 from ion.view.marks import Mark, following, preceding
-from ion.view.player import FASTEST, SLOWEST
+from ion.view.player import FASTEST, NEWEST, SLOWEST
 from ion.view.sensor_scene import LAYERS
 from ion.view.show import Show
 from ion.view.timeline import Moment
 from ion.view.words import sentence
 
-SPEEDS = tuple(f"{2.0**k:g}x" for k in range(-2, 5))
+LATEST = "newest"
+SPEEDS = (*(f"{2.0**k:g}x" for k in range(-2, 5)), LATEST)
 READ_S = 0.3
 """From one look of the panel to the next while it plays."""
 STEP_S = 0.02
 """The slider's: one call of the navigator."""
 assert SPEEDS[0] == f"{SLOWEST:g}x"
-assert SPEEDS[-1] == f"{FASTEST:g}x"
+assert SPEEDS[-2] == f"{FASTEST:g}x"
 
 
 class Panel:
@@ -54,7 +55,7 @@ class Panel:
             self._slider.max = timeline.end_s
         self._slider.value = min(round(moment.time_s, 3), self._slider.max)
         self._play.label = "Pause" if player.playing else "Play"
-        loading = "" if timeline.complete else f"reading the tape: {timeline.end_s:.0f} s so far"
+        loading = "" if timeline.complete else f"{timeline.end_s:.0f} s so far"
         self._note.content = timeline.trouble or loading
         self._note.visible = bool(self._note.content)
         self._words.content = sentence(moment)
@@ -95,7 +96,8 @@ class Panel:
 
         @speed.on_update
         def _(_: viser.GuiEvent) -> None:
-            player.speed = float(speed.value.removesuffix("x"))
+            asked = speed.value
+            player.speed = NEWEST if asked == LATEST else float(asked.removesuffix("x"))
 
     def _go(self, time_s: float | None) -> None:
         self._show.player.go(time_s)

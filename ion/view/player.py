@@ -1,8 +1,11 @@
 """The clock of a shown drive: where it stands, and how fast it runs."""
 
 from dataclasses import dataclass
+from math import inf
 
 SLOWEST, FASTEST = 0.25, 16.0
+NEWEST = inf
+"""A speed that stays at the end, also of a drive that goes on."""
 
 
 @dataclass
@@ -16,7 +19,7 @@ class Player:
     def advance(self, wall_s: float, end_s: float, complete: bool) -> None:
         """Play on for `wall_s`; stand at the end, and stop there if no more will come."""
         if self.playing:
-            self.time_s = min(self.time_s + wall_s * self.speed, end_s)
+            self.time_s = min(self.time_s + max(wall_s, 1e-6) * self.speed, end_s)
             if complete and self.time_s >= end_s:
                 self.playing = False
 

@@ -4,7 +4,6 @@ from pathlib import Path
 
 import viser
 
-from ion.recorded import Recorded
 from ion.view.canvas import Canvas
 from ion.view.decide.plot import DecisionPlot
 from ion.view.decide.words import told
@@ -22,19 +21,16 @@ class Deciding:
 
     Args:
         server: of the page.
-        recorded: what stands on the tape beside its messages.
         show: what is shown.
         folder: where tuned parameter files go.
     """
 
-    def __init__(
-        self, server: viser.ViserServer, recorded: Recorded, show: Show, folder: Path
-    ) -> None:
-        gui, vehicle = server.gui, recorded.said["vehicle"]
-        self._recorded, self._show = recorded, show
+    def __init__(self, server: viser.ViserServer, show: Show, folder: Path) -> None:
+        gui, recorded = server.gui, show.recorded
+        self._show = show
         self._canvas = Canvas(server.scene, (went_on.TRACK,))
         self._worker, self._rest = Worker(recorded.log), RestOfRun(recorded.log)
-        self._tuning = Tuning(recorded.files, vehicle)
+        self._tuning = Tuning(recorded.files, recorded.said["vehicle"])
         self._words = gui.add_markdown("")
         self._plot = DecisionPlot(gui)
         self._folder = TuneFolder(
@@ -54,7 +50,7 @@ class Deciding:
         self._answer(moment)
         if self._rest.look():
             went_on.draw(self._canvas, self._rest.told)
-            outcome = str(self._recorded.figures.get("outcome", ""))
+            outcome = str(self._show.recorded.figures.get("outcome", ""))
             self._folder.tell(went_on.words(self._rest, self._show.timeline, outcome))
 
     def _answer(self, moment: Moment) -> None:
@@ -64,6 +60,10 @@ class Deciding:
             if reply.found:
                 self._plot.show(reply.found)
             self._words.content = told(reply.found) if reply.found else reply.trouble
-        elif moment.time_s > self._worker.reached_s and not (reply and reply.trouble):
-            end_s = self._show.timeline.end_s
-            self._words.content = f"Replaying: {self._worker.reached_s:.0f} of {end_s:.0f} s."
+        elif self._started and not (reply and reply.trouble):
+            self._wait(moment.time_s)
+
+    def _wait(self, time_s: float) -> None:
+        reached_s, end_s = self._worker.reached_s, self._show.timeline.end_s
+        if time_s > reached_s:
+            self._words.content = f"Replaying: {reached_s:.0f} of {end_s:.0f} s."
