@@ -11,6 +11,7 @@ import numpy as np
 import pytest
 from test_obstacle_map import GEOMETRY, PARAMETERS, VEHICLE
 
+from nav.fusion.expected_ground import expected
 from nav.fusion.negative_obstacles import _in_wide_runs
 from nav.fusion.obstacle_map import ObstacleMap
 from nav.fusion.scan_geometry import Pose, placed
@@ -52,11 +53,13 @@ def stand(terrain, x: float) -> tuple[Pose, float]:
 class World:
     """A terrain with solids, a map, and how wrong attitude and mounting are."""
 
-    def __init__(self, terrain, solids=(), error=(0.0, 0.0), tilt_rad=0.0, parameters=SEES):
+    def __init__(
+        self, terrain, solids=(), error=(0.0, 0.0), tilt_rad=0.0, parameters=SEES, lean_rad=0.0
+    ):
         self.terrain, self.error = terrain, error
         self.scene, self.window = Scene(list(solids)), TerrainWindow(terrain, 0.0, 0.0)
         self.chart = ObstacleMap(parameters, VEHICLE)
-        self.turn = np.array([[1, 0, 0], [0, 1, 0], [-tilt_rad, 0, 1.0]])
+        self.turn = np.array([[1, 0, 0], [0, 1, 0], [-tilt_rad, lean_rad, 1.0]])
         self._see()
 
     def _see(self):
@@ -110,6 +113,21 @@ def test_a_drop_across_the_way_is_found_in_time(depth_m, tilt_rad):
     lane = np.unique(np.round(y[(np.abs(y) < 5.0) & (x < EDGE_M + 1.0)], 1))
     assert len(lane) >= 48  # of 50 cells
     assert x.min() > EDGE_M - 1.2
+
+
+@pytest.mark.parametrize("lean_rad", [-0.015, 0.015])
+def test_a_scanner_that_leans_is_found_out(lean_rad):
+    world = World(RollingGround(0, GENTLE), lean_rad=lean_rad)
+    world.drive(120.0)
+    assert world.chart.ground.lean_rad == pytest.approx(lean_rad, abs=0.003)
+
+
+def test_what_stands_up_beyond_the_known_ground_teaches_nothing():
+    world = World(RollingGround(0, FLAT))
+    world.drive(5.0)
+    ahead = expected(world.chart.ground, SEES.negative)
+    places = np.array([[26.0, 26.0], [0.0, 0.0], [0.2, 0.6]])
+    assert ahead.continues(places, np.ones(2, bool)).tolist() == [True, False]
 
 
 def test_a_drop_on_rolling_ground_is_found():

@@ -93,15 +93,21 @@ class Expected:
 
     def continues(self, point_m: Floats, near: Bools) -> Bools:
         """Whether points (3, n), from the vehicle, go on from the known ground, (n,); of `near`
-        ones less is asked."""
+        ones less is asked.
+
+        Ground may rise as it may fall. In a bend the beams sweep to where little is known: what
+        stands up there is a wall as likely as ground, and can wait until it is seen from nearer.
+        """
         p, over = self.parameters, self.plane.over(point_m)
-        low = np.flatnonzero(over < -p.doubt_m)
+        off = np.flatnonzero(np.abs(over) > p.doubt_m)
         goes_on = np.ones(len(over), bool)
-        if low.size:
-            floor = self.floor.at(point_m[0, low], point_m[1, low])
-            nowhere = np.where(near[low], p.doubt_m - p.low_m, UNKNOWN_M)
-            least = np.where(floor > -UNKNOWN_M, floor, nowhere) - p.doubt_m
-            goes_on[low] = over[low] > least
+        if off.size:
+            floor = self.floor.at(point_m[0, off], point_m[1, off])
+            known = floor > -UNKNOWN_M
+            nowhere = np.where(near[off], p.doubt_m - p.low_m, UNKNOWN_M)
+            least = np.where(known, floor, nowhere)
+            most = np.where(known, np.abs(floor), p.low_m)
+            goes_on[off] = (over[off] > least - p.doubt_m) & (over[off] < most + p.doubt_m)
         return goes_on
 
 

@@ -21,11 +21,12 @@ apparent world and so changes no difference of heights. Drops are looked
 for in `negative_obstacles`.
 """
 
-from math import cos, sin, tan
+from math import cos, fsum, sin, tan
 
 import numpy as np
 from numpy.typing import NDArray
 
+from nav.angles import wrapped
 from nav.fusion.lattice import Ints, Lattice
 from nav.fusion.scan_geometry import Pose
 from nav.messages import Floats
@@ -39,6 +40,11 @@ _PULL = 0.2
 """Share of the offset to known ground that the vehicle's height follows, a tick."""
 _TILT_WAY_M, _TILT_MAX_RAD, _STANDS_M = 40.0, 0.03, 0.02
 """The tilt is learned over some 40 m: longer than the 15 m that the scanner looks ahead."""
+_LEAN_MOST = 0.05
+"""A wheel on one side that meets more than this, a metre of track, has met a bump."""
+_STRAIGHT_RAD, _STRAIGHT_M = 0.1, 20.0
+"""The lean is learned where the vehicle has long gone straight: in a bend the vertical gyro follows
+the apparent vertical, and the ground was taught under another roll than it is driven over."""
 _NOWHERE = Pose(0.0, 0.0, 0.0, 0.0, 0.0)
 _PRIOR_M2 = 50.0
 """Weight of the vehicle's own plane in the trend, as one cell seen at 7 m."""
@@ -66,6 +72,11 @@ class GroundProfile:
         self.tilt_rad = 0.0
         """How much deeper the teaching scanner looks than it is believed to: learned by driving
         over what it taught. Its heights are too high by this times the distance."""
+        self.lean_rad = 0.0
+        """How much more its left side looks up than it is believed to: learned in the same way.
+        Its heights are too low by this times the distance to the left."""
+        self._straight_m, self._straight_rad = 0.0, 0.0
+        """How far the vehicle has gone straight, and where to."""
         self._pose: Pose | None = None
         self.ahead = (1.0, 0.0)
         """Where the vehicle looks: east and north."""
@@ -91,23 +102,32 @@ class GroundProfile:
         self._plane = (fore * c - left * s, fore * s + left * c)
         self.ahead = (c, s)
         self._pose = pose
+        self._go_straight(pose, abs(way))
         self._stand(pose, abs(way))
         self._due += abs(way) + _DUE_EACH_M
         if self._due >= self.parameters.cell_m:
             self._bound = self._renewed_bound(pose)
             self._due = 0.0
 
+    def _go_straight(self, pose: Pose, way_m: float) -> None:
+        if abs(wrapped(pose.heading_rad - self._straight_rad)) > _STRAIGHT_RAD:
+            self._straight_rad, self._straight_m = pose.heading_rad, 0.0
+        self._straight_m += way_m
+
     def _stand(self, pose: Pose, way_m: float) -> None:
         """What is under the wheels is ground; where it is known, it draws the vehicle to it."""
         under = [self._under(pose, wheel) for wheel in self._wheel_m]
-        known = [(cell, plane) for cell, plane in under if self.height_m[cell] < UNKNOWN_M]
+        heights = [float(self.height_m[cell]) for cell, _ in under]
+        offset_m = [
+            height - plane - self.vehicle_m if height < UNKNOWN_M else None
+            for height, (_, plane) in zip(heights, under, strict=True)
+        ]
+        known = [offset for offset in offset_m if offset is not None]
         if known:
-            total = 0.0
-            for cell, plane in known:
-                total += float(self.height_m[cell]) - plane
-            self._draw(total / len(known) - self.vehicle_m, way_m)
-        for cell, plane in under:
-            if (cell, plane) not in known:
+            self._lean(offset_m, way_m)
+            self._draw(fsum(known) / len(known), way_m)
+        for (cell, plane), offset in zip(under, offset_m, strict=True):
+            if offset is None:
                 self.height_m[cell] = self.vehicle_m + plane
 
     def _under(self, pose: Pose, wheel_m: tuple[float, float]) -> tuple[tuple[int, int], float]:
@@ -126,6 +146,23 @@ class GroundProfile:
         if way_m > _STANDS_M:  # a scanner that looks too deep by b pulls by b a metre of way
             tilt = self.tilt_rad + pull / _TILT_WAY_M
             self.tilt_rad = min(max(tilt, -_TILT_MAX_RAD), _TILT_MAX_RAD)
+
+    def _lean(self, offset_m: list[float | None], way_m: float) -> None:
+        """Of an axle whose both wheels stand on known ground: does it rise to one side?"""
+        if way_m <= _STANDS_M or self._straight_m < _STRAIGHT_M:
+            return
+        for (_, right), (_, left), low, high in zip(
+            self._wheel_m[::2], self._wheel_m[1::2], offset_m[::2], offset_m[1::2], strict=True
+        ):
+            if low is not None and high is not None:
+                rise = min(max((high - low) / (left - right), -_LEAN_MOST), _LEAN_MOST)
+                lean = self.lean_rad - 0.5 * min(way_m / _TILT_WAY_M, 1.0) * rise
+                self.lean_rad = min(max(lean, -_TILT_MAX_RAD), _TILT_MAX_RAD)
+
+    def too_high(self, east: Floats, north: Floats, distance_m: Floats | float) -> Floats:
+        """By how much the teaching scanner's heights are, at places from the vehicle."""
+        c, s = self.ahead
+        return self.tilt_rad * distance_m - self.lean_rad * (c * north - s * east)
 
     # ------------------------------------------------------------------ bound
 

@@ -15,7 +15,7 @@ above the floor; what lies behind a crest that falls as steeply as the beams is 
 import numpy as np
 
 from nav.fusion.expected_ground import Bools, Expected, Floor
-from nav.fusion.ground_profile import UNKNOWN_M
+from nav.fusion.ground_profile import UNKNOWN_M, GroundProfile
 from nav.fusion.lattice import Ints
 from nav.fusion.scan_geometry import Pose, Scans
 from nav.messages import Floats
@@ -43,7 +43,7 @@ def drops(scans: Scans, expect: Expected, pose: Pose) -> Floats:
     """
     p, plane = expect.parameters, expect.plane
     inner = _inner(scans, p.fan_rad)
-    origin, way = _rays(scans, inner, pose, expect.ground.tilt_rad)
+    origin, way = _rays(scans, inner, pose, expect.ground)
     over = plane.over(origin)  # (k, 1)
     fall = plane.rise(way[0], way[1]) - way[2]  # (k, beams), for each metre of beam
     crossing = over / np.maximum(fall, p.fall_min)
@@ -95,9 +95,9 @@ def _inner(scans: Scans, fan_rad: float) -> slice:
     return slice(first, count - first)
 
 
-def _rays(scans: Scans, inner: slice, pose: Pose, tilt_rad: float) -> tuple[Floats, Floats]:
+def _rays(scans: Scans, inner: slice, pose: Pose, ground: GroundProfile) -> tuple[Floats, Floats]:
     """Origins (3, k, 1) from the vehicle and directions (3, k, beams), level axes."""
     way = (scans.frame[:, :, :2] @ scans.geometry[0].ray[:, inner]).swapaxes(0, 1)
     origin = scans.frame[:, :, 2].T[:, :, None] - np.array([pose.x_m, pose.y_m, 0.0])[:, None, None]
-    way[2] -= tilt_rad
+    way[2] -= ground.too_high(way[0], way[1], 1.0)
     return origin, way

@@ -240,7 +240,7 @@ class ObstacleMap:
         heights = [points[2, start:end] for start, end in pairwise(ends.tolist())]
         bump = np.concatenate([_NONE, *(bumps(height, p.bump_beams) for height in heights)])
         first = slice(len(bump))  # the points of steep beams
-        points[2, first] -= self.ground.tilt_rad * distance[first]
+        points[2, first] -= self.ground.too_high(x[first], y[first], distance[first])
         obstacle, ground, coarse = self.ground.classify(points, distance)
         stands_out = ground[first] & (bump > p.bump_m)
         obstacle[first] |= stands_out

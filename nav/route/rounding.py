@@ -29,6 +29,8 @@ class Rounding:
     """Wanted where there is room; the vehicle can turn on 5.8 m."""
     clearance_m: float = 1.2
     """From the corridor's edge: 0.76 m of vehicle, 0.44 m for tracking and the front's swing."""
+    clearance_share: float = 0.3
+    """Of a wide corridor's half-width: where there is room, the estimate may err more."""
     reach_m: float = 24.0
     """How far from a corner points may move, along the route."""
     steps: int = 300
@@ -115,14 +117,14 @@ def _relax(
         move[still] = 0.0
         before = points.copy()
         points[1:-1] += move
-        points = _held(points, segment, waypoints, rounding.clearance_m)
+        points = _held(points, segment, waypoints, rounding)
         if np.abs(points - before).max() < SETTLED_M:
             break
     return points
 
 
 def _held(
-    points: Floats, segment: NDArray[np.int64], waypoints: Waypoints, clearance_m: float
+    points: Floats, segment: NDArray[np.int64], waypoints: Waypoints, rounding: Rounding
 ) -> Floats:
     """Points pulled back to where the corridor of the segments around them leaves clearance."""
     P = waypoints.position_m
@@ -130,7 +132,9 @@ def _held(
     centre = foot(points, P[near], P[near + 1])
     offset = points - centre
     distance = np.sqrt((offset * offset).sum(-1))
-    room = np.maximum(waypoints.half_width_m[near] - clearance_m, 0.0)
+    half = waypoints.half_width_m[near]
+    clearance = np.maximum(rounding.clearance_m, rounding.clearance_share * half)
+    room = np.maximum(half - clearance, 0.0)
     best = (distance - room).argmin(axis=0), np.arange(len(points))
     share = np.minimum(room[best] / np.maximum(distance[best], 1e-12), 1.0)
     return centre[best] + offset[best] * share[:, None]
