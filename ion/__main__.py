@@ -87,6 +87,14 @@ def _command() -> int:
         print(mermaid(), end="")
         return 0
 
+    @app.command
+    def layout() -> int:
+        """Print a layout of panels for Foxglove and Lichtblick, to be imported there."""
+        from importlib.resources import files
+
+        print((files("tape") / "foxglove_layout.json").read_text(encoding="utf-8"), end="")
+        return 0
+
     return app.cli(
         prog="ion",
         description="ION, the six-wheeler of the Grand Challenge 2005, as a digital twin.",

@@ -1,28 +1,19 @@
 """The page of `ion view` in a real browser: it is drawn, plays, scrubs, jumps and looks around."""
 
 import re
-import shutil
 import signal
 import subprocess
 import sys
-from io import BytesIO
 from pathlib import Path
 
+import browser
 import numpy as np
 import pytest
-from matplotlib.image import imread
+from browser import PATIENCE_MS, chromium_page
 
 ION = str(Path(sys.executable).with_name("ion"))
-SCREENS = Path(__file__).parent.parent / "runs" / "screens"
-FLAGS = (
-    "--headless", "--no-sandbox", "--disable-gpu", "--disable-quic", "--no-first-run",
-    "--disable-background-networking", "--disable-component-update", "--disable-sync",
-    "--use-gl=angle", "--use-angle=swiftshader", "--enable-unsafe-swiftshader",
-)  # fmt: skip
-SIZE = {"width": 800, "height": 600}
 SCENE = np.s_[200:590, :400, :3]
 """What of the page is surely scene: left of the panel, below notices."""
-PATIENCE_MS = 60_000
 
 
 @pytest.fixture(scope="module")
@@ -42,30 +33,15 @@ def viewer(short_tape, tmp_path_factory):
 
 @pytest.fixture(scope="module")
 def page(viewer):
-    names = ("chromium", "chromium-browser", "google-chrome")
-    path = next(filter(None, map(shutil.which, names)), None)
-    if path is None:
-        pytest.skip("no chromium here; tools/browser.sh installs it where it may")
-    from playwright.sync_api import sync_playwright
-
-    with sync_playwright() as playwright:
-        browser = playwright.chromium.launch(executable_path=path, args=FLAGS)
-        page = browser.new_page(viewport=SIZE)
-        page.set_default_timeout(PATIENCE_MS)
-        page.errors = []
-        page.on("console", lambda m: m.type == "error" and page.errors.append(m.text))
-        page.on("pageerror", lambda error: page.errors.append(error.stack))
+    with chromium_page() as page:
         page.goto(viewer[1])
         page.get_by_text("Path-Point Keeping").first.wait_for()
         yield page
-        browser.close()
 
 
 def picture(page, name):
     """What the scene shows, shape (h, w, 3)."""
-    SCREENS.mkdir(parents=True, exist_ok=True)
-    content = page.screenshot(path=SCREENS / f"{name}.png", timeout=PATIENCE_MS)
-    return imread(BytesIO(content), format="png")[SCENE]
+    return browser.picture(page, name, SCENE)
 
 
 def clock(page):

@@ -1,5 +1,7 @@
 """Lines and points in the scene that change from moment to moment."""
 
+from typing import Literal
+
 import numpy as np
 import viser
 from numpy.typing import NDArray
@@ -8,6 +10,7 @@ from ion.view.shapes import rgb
 from nav.messages import Floats
 
 Colors = NDArray[np.uint8]
+Precision = Literal["float16", "float32"]
 
 
 class Canvas:
@@ -16,10 +19,15 @@ class Canvas:
     Args:
         scene: drawn in.
         groups: names of what can be hidden together, such as `/lidar`.
+        precision: of points, from their middle: half floats take half the room and err by up to
+            3 cm at 60 m.
     """
 
-    def __init__(self, scene: viser.SceneApi, groups: tuple[str, ...]) -> None:
+    def __init__(
+        self, scene: viser.SceneApi, groups: tuple[str, ...], precision: Precision = "float32"
+    ) -> None:
         self._scene = scene
+        self._precision: Precision = precision
         self._groups = {name: scene.add_frame(name, show_axes=False) for name in groups}
         self._lines: dict[str, viser.LineSegmentsHandle] = {}
         self._points: dict[str, viser.PointCloudHandle] = {}
@@ -43,16 +51,21 @@ class Canvas:
     def points(self, name: str, place_m: Floats, color: str | Colors, size_m: float) -> None:
         """Points (n, 3), n may be 0, in one colour or each in its own (n, 3)."""
         known = self._points.get(name)
-        colors = np.array(rgb(color), np.uint8) if isinstance(color, str) else color
-        if known is None and len(place_m):
-            self._points[name] = self._scene.add_point_cloud(
-                name, place_m, colors, point_size=size_m, point_shape="circle",
-                precision="float32", point_shading="flat",
-            )  # fmt: skip
-        elif known is not None:
+        if known is not None:
             known.visible = bool(len(place_m))
-            if len(place_m):
-                known.points, known.colors = place_m.astype(np.float32), colors
+        if not len(place_m):
+            return
+        colors = np.array(rgb(color), np.uint8) if isinstance(color, str) else color
+        middle_m = place_m.mean(axis=0)
+        near = (place_m - middle_m).astype(self._precision)
+        if known is None:
+            known = self._points[name] = self._scene.add_point_cloud(
+                name, near, colors, point_size=size_m, point_shape="circle",
+                precision=self._precision, point_shading="flat",
+            )  # fmt: skip
+        else:
+            known.points, known.colors = near, colors
+        known.position = middle_m
 
 
 def lines(

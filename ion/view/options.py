@@ -15,6 +15,12 @@ class Options:
 
     log: Annotated[Positional[Path], arg(metavar="LOG")]
     """A tape, as `ion drive` writes it; of a drive that was killed too."""
+    export: Annotated[Path | None, arg(metavar="FILE")] = None
+    """Write one page (HTML) that plays the drive without a server, instead of serving it."""
+    first: Annotated[float | None, arg(name="from", metavar="SECONDS")] = None
+    """With --export: where the page begins. Default: at the start."""
+    last: Annotated[float | None, arg(name="to", metavar="SECONDS")] = None
+    """With --export: where the page ends. Default: with the tape."""
     port: Annotated[int | None, arg(metavar="N")] = None
     """Of the web page. Default: 8080, or the next that is free."""
     parameters: Annotated[Path, arg(metavar="FOLDER")] = Path("runs/parameters")

@@ -8,16 +8,12 @@ import viser
 from numpy.typing import NDArray
 
 from ion.view.cameras import CAMERAS, FREE
-from ion.view.course_scene import draw_course, draw_gates
 from ion.view.decide.deciding import Deciding
 from ion.view.panel import Panel
-from ion.view.places import Places, Pose
-from ion.view.sensor_scene import SensorScene
+from ion.view.places import Pose
 from ion.view.shapes import rgb
 from ion.view.show import Show
-from ion.view.vehicle_scene import VehicleScene
-from nav.parameters import parameters_from
-from scenarios.vehicles import VEHICLES
+from ion.view.stage import Stage
 
 SKY = "#8fb4d6", "#e9eef0"
 """From above to below."""
@@ -41,17 +37,12 @@ class Page:
 
     def __init__(self, server: viser.ViserServer, show: Show, tuned: Path) -> None:
         self._server, self._show = server, show
-        self._course = course = show.recorded.course()
-        parameters = parameters_from(show.recorded.files, course.vehicle)
-        self._places = Places(course)
         self._pose: Pose | None = None
-        self._gates: set[int] | None = None
         look(server)
-        draw_course(server.scene, course, self._places)
-        height_m = VEHICLES[course.vehicle].height_m
-        self._vehicle = VehicleScene(server.scene, course.vehicle, parameters.vehicle, height_m)
-        self._sensors = SensorScene(server.scene, self._places, parameters)
-        self._panel = Panel(server.gui, self._show, f"{course.name}, seed {show.recorded.seed}")
+        server.gui.configure_theme(control_width="large", show_logo=False, show_share_button=False)
+        server.gui.main_panel.dock_right()
+        self._stage = Stage(server.scene, show)
+        self._panel = Panel(server.gui, show, show.title(self._stage.course))
         self._deciding = Deciding(server, show, tuned)
         server.on_client_connect(lambda client: self._aim(client, self._panel.camera))
 
@@ -71,15 +62,13 @@ class Page:
         show.changed.clear()
         show.player.advance(wall_s, show.timeline.end_s, show.timeline.complete)
         moment = show.timeline.at(max(show.player.time_s, show.timeline.start_s))
-        pose = self._places.vehicle(moment)
         with self._server.atomic():
-            if pose:
-                self._vehicle.show(moment, pose)
-                self._sensors.show(show.timeline, moment, self._panel.hidden)
-            self._draw_gates(moment.time_s)
+            self._pose = self._stage.move(moment)
+            if self._pose:
+                self._stage.sense(moment, self._panel.hidden)
+                self._stage.tracks(moment.time_s)
             self._panel.refresh(moment)
             self._deciding.refresh(moment)
-        self._pose = pose
         for client in self._server.get_clients().values():
             self._aim(client, self._panel.camera)
 
@@ -91,16 +80,6 @@ class Page:
         with client.atomic():
             client.camera.position, client.camera.look_at = view.position_m, view.look_at_m
 
-    def _draw_gates(self, time_s: float) -> None:
-        """Anew only when one was passed or missed."""
-        found = {"gate": set[int](), "missed": set[int]()}
-        for event in self._show.recorded.events:
-            if event.kind in found and event.time_s <= time_s:
-                found[event.kind].add(int(event.text.split()[-1]) - 1)
-        if self._gates != found["gate"] | found["missed"]:
-            self._gates = found["gate"] | found["missed"]
-            draw_gates(self._server.scene, self._course, self._places, *found.values())
-
 
 def _sky() -> NDArray[np.uint8]:
     """Paler towards the ground, shape (n, 1, 3)."""
@@ -110,9 +89,7 @@ def _sky() -> NDArray[np.uint8]:
 
 
 def look(server: viser.ViserServer) -> None:
-    """How the page looks as a whole."""
-    server.gui.configure_theme(control_width="large", show_logo=False, show_share_button=False)
-    server.gui.main_panel.dock_right()
+    """How the scene looks as a whole."""
     server.scene.set_up_direction("+z")
     server.scene.configure_default_lights(cast_shadow=False)
     server.scene.set_background_image(_sky(), format="png")

@@ -1,10 +1,12 @@
 """What the sensors see, what the navigator makes of it, and where it wants to go."""
 
+from collections.abc import Set as AbstractSet
+
 import numpy as np
 import viser
 
 from ion.style import DECIDED, INK, QUIET, REAL, SAFE, SEEN, TRACK
-from ion.view.canvas import Canvas
+from ion.view.canvas import Canvas, Precision
 from ion.view.places import Floats, Places
 from ion.view.shapes import edges, rgb, segments
 from ion.view.timeline import Moment, Timeline
@@ -40,11 +42,16 @@ class SensorScene:
         scene: drawn in.
         places: of the course.
         parameters: the navigator's, as on the tape.
+        precision: of points.
     """
 
-    def __init__(self, scene: viser.SceneApi, places: Places, parameters: Parameters) -> None:
+    def __init__(
+        self, scene: viser.SceneApi, places: Places, parameters: Parameters,
+        precision: Precision = "float32",
+    ) -> None:  # fmt: skip
         self._places, self._parameters = places, parameters
-        self._canvas = Canvas(scene, tuple(name for group in LAYERS.values() for name in group))
+        groups = tuple(name for group in LAYERS.values() for name in group)
+        self._canvas = Canvas(scene, groups, precision)
         vehicle = parameters.vehicle
         self._geometry = {
             name: scan_geometry(mount, vehicle.lidar, vehicle.outline)
@@ -52,7 +59,7 @@ class SensorScene:
         }
         self._drawn: dict[str, object] = {}
 
-    def show(self, timeline: Timeline, moment: Moment, hidden: set[str]) -> None:
+    def show(self, timeline: Timeline, moment: Moment, hidden: AbstractSet[str]) -> None:
         """Draw a moment: only what has changed since the last one."""
         self._points(timeline, moment)
         if self._new("sonar", moment.sonar):
@@ -63,7 +70,6 @@ class SensorScene:
             self._draw_map(moment.cells)
         if self._new("path", moment.command):
             self._draw_path(moment)
-        self._tracks(timeline, moment.time_s)
         for name, groups in LAYERS.items():
             for group in groups:
                 self._canvas.hide(group, name in hidden)
@@ -122,7 +128,7 @@ class SensorScene:
         self._canvas.points("/path/points", line, color, 0.14)
         self._canvas.lines("/path/line", segments(line), color, 3.0)
 
-    def _tracks(self, timeline: Timeline, time_s: float) -> None:
+    def tracks(self, timeline: Timeline, time_s: float) -> None:
         """The trajectory so far; drawn anew every half second."""
         span = int(time_s * 10.0 / TRACK_EVERY)
         if self._drawn.get("tracks") != span:

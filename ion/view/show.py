@@ -7,6 +7,7 @@ from ion.recorded import Recorded
 from ion.view import marks
 from ion.view.player import Player
 from ion.view.timeline import Timeline
+from scenarios.course import Course
 
 
 @dataclass
@@ -17,6 +18,10 @@ class Show:
     timeline: Timeline
     player: Player = field(default_factory=Player)
     changed: Event = field(default_factory=Event)
+
+    def title(self, course: Course) -> str:
+        """What was driven."""
+        return f"{course.name}, seed {self.recorded.seed}"
 
     def wake(self) -> None:
         """Draw at once."""

@@ -1,0 +1,1 @@
+"""A drive as one file that plays in a browser, without a server."""
