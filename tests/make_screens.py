@@ -15,8 +15,8 @@ from PIL import Image
 ION = str(Path(sys.executable).with_name("ion"))
 DOCS = Path(__file__).parent.parent / "docs"
 SIZE = {"width": 1400, "height": 900}
-VIEW_S, TUNE_S = 268.0, 107.9
-"""Between obstacles; and where the steering has to choose."""
+VIEW_S, TUNE_S = 106.3, 107.9
+"""Where an obstacle stands in the way, and a moment later."""
 
 
 def main(log: str) -> None:
@@ -61,7 +61,7 @@ def _tune(page) -> None:
         label.locator("xpath=following::input[1]").fill(points)
         page.wait_for_timeout(1000)
     page.mouse.move(1200, 700)
-    page.mouse.wheel(0, 800)
+    page.mouse.wheel(0, 640)
     page.wait_for_timeout(3000)
     _keep(page, "tune")
 
