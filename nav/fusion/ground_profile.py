@@ -154,7 +154,7 @@ class GroundProfile:
         for (_, right), (_, left), low, high in zip(
             self._wheel_m[::2], self._wheel_m[1::2], offset_m[::2], offset_m[1::2], strict=True
         ):
-            if low is not None and high is not None:
+            if low is not None and high is not None and left > right:  # a point has no sides
                 rise = min(max((high - low) / (left - right), -_LEAN_MOST), _LEAN_MOST)
                 lean = self.lean_rad - 0.5 * min(way_m / _TILT_WAY_M, 1.0) * rise
                 self.lean_rad = min(max(lean, -_TILT_MAX_RAD), _TILT_MAX_RAD)
