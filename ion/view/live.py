@@ -48,8 +48,8 @@ class Live:
 
     def stay(self) -> None:
         """Let people look until Ctrl-C."""
-        print("the page stays: Ctrl-C ends it", flush=True)
-        with suppress(KeyboardInterrupt):
+        with suppress(KeyboardInterrupt):  # it may come as soon as one has read this
+            print("the page stays: Ctrl-C ends it", flush=True)
             Event().wait()
         print()
 
