@@ -12,11 +12,14 @@ import numpy as np
 from numpy.typing import NDArray
 
 from nav.fusion.ground_profile import UNKNOWN_M, GroundProfile, pooled
+from nav.fusion.lattice import Kind
 from nav.messages import Floats
 from nav.parameters.obstacle_map import NegativeParameters
 
 Bools = NDArray[np.bool_]
 
+LEAST_TOGETHER = 4
+"""Known blocks among a block and its eight neighbours, itself included."""
 LEAST_BLOCKS, LEAST_FAR, SPREAD = 12, 4, 1e-3
 """So much of the ground ahead must be known, and of its far part: where the beams have been thrown
 far ahead, nothing is said. And what keeps the equations regular."""
@@ -128,21 +131,26 @@ def _floor_of(ground: GroundProfile, plane: Plane, p: NegativeParameters) -> Flo
 
 
 def _continued(over_m: Floats, block_m: float, p: NegativeParameters) -> Floats:
-    """Known blocks as they are, and block by block what lies beside them, bent down."""
-    floor, bent = np.where(over_m < 0.5 * UNKNOWN_M, over_m, -UNKNOWN_M), 0.0
+    """Known blocks as low as their lowest neighbour, and block by block what lies beside them, bent
+    down. A block that is known almost alone is none: far away, in a bend, it may well be the foot of
+    a wall."""
+    known = over_m < 0.5 * UNKNOWN_M
+    known &= _beside(np.add, known.astype(np.int8)) >= LEAST_TOGETHER
+    lowest = -_beside(np.maximum, np.where(known, -over_m, -UNKNOWN_M))
+    floor, bent = np.where(known, lowest, -UNKNOWN_M), 0.0
     for k in range(1, round(p.near_m / block_m) + 1):
         bend = 0.5 * p.curvature_pm * (k * block_m) ** 2
-        beside = _highest_beside(floor) - (bend - bent)
+        beside = _beside(np.maximum, floor) - (bend - bent)
         floor, bent = np.where(floor > -0.5 * UNKNOWN_M, floor, beside), bend
     return np.where(floor > -0.5 * UNKNOWN_M, floor, -UNKNOWN_M)
 
 
-def _highest_beside(cells: Floats) -> Floats:
-    """Highest of each cell and its eight neighbours."""
+def _beside(join: np.ufunc, cells: NDArray[Kind]) -> NDArray[Kind]:
+    """Each cell and its eight neighbours joined: their maximum, or their sum."""
     rows = cells.copy()
-    np.maximum(rows[1:], cells[:-1], out=rows[1:])
-    np.maximum(rows[:-1], cells[1:], out=rows[:-1])
-    highest = rows.copy()
-    np.maximum(highest[:, 1:], rows[:, :-1], out=highest[:, 1:])
-    np.maximum(highest[:, :-1], rows[:, 1:], out=highest[:, :-1])
-    return highest
+    join(rows[1:], cells[:-1], out=rows[1:])
+    join(rows[:-1], cells[1:], out=rows[:-1])
+    joined = rows.copy()
+    join(joined[:, 1:], rows[:, :-1], out=joined[:, 1:])
+    join(joined[:, :-1], rows[:, 1:], out=joined[:, :-1])
+    return joined

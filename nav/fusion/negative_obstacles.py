@@ -8,8 +8,9 @@ A scanner sweeps over an edge once, some 18 m ahead. Behind it the beam goes on 
 ground, and soon the known ground is too far away to say what should have been there, so only the
 first metre of the sweep speaks. Ground that falls by as much as courses do (0.08) is met by the
 next scans already, and so never lies far from known ground. A drop is wide: a few beams that find a
-gap between obstacles, whose ground nobody has seen, show none. A beam that ends on an obstacle ends
-above the floor; what lies behind a crest that falls as steeply as the beams is a drop to them.
+gap between obstacles, whose ground nobody has seen, show none. A beam that ends on the floor again
+has shown none, and one that ends on an obstacle ends above it; what lies behind a crest that falls
+as steeply as the beams is a drop to them.
 """
 
 import numpy as np
@@ -70,12 +71,24 @@ def _below(
     at = crossing + BEYOND_M  # (n, samples)
     over = floor.at(*(start + way * at))
     below = np.where(at < range_m, over + fall * BEYOND_M, -UNKNOWN_M)
-    deep: Bools = np.asarray(below > p.drop_m)
+    deep: Bools = (below > p.drop_m) & _ends_low(floor, start, way, crossing, fall, range_m, p)
     first = np.take_along_axis(over, (below > 0.0).argmax(axis=1)[:, None], axis=1)
     edge = crossing - np.maximum(first, -1.0) / fall
     last = BEYOND_M[-1] - SAMPLE_M * np.flip(deep, axis=1).argmax(axis=1)[:, None]
     end = np.minimum(range_m, crossing + last + SAMPLE_M)
     return edge, np.where(np.any(deep, axis=1, keepdims=True), end, -UNKNOWN_M)
+
+
+def _ends_low(
+    floor: Floor, start: Floats, way: Floats, crossing: Floats, fall: Floats, range_m: Floats,
+    p: NegativeParameters,
+) -> Bools:  # fmt: skip
+    """Which beams end below the floor, or where nothing is known, (n, 1).
+
+    Who only passes below it has passed beside a thing whose foot was taken for ground."""
+    end = np.minimum(range_m, crossing + BEYOND_M[-1])
+    over = floor.at(*(start + way * end))
+    return (over + fall * (end - crossing) > p.drop_m) | (over <= -UNKNOWN_M)
 
 
 def _in_wide_runs(scan: Ints, beam: Ints, deep: Bools, least: int) -> Bools:
