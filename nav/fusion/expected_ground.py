@@ -132,8 +132,7 @@ def _floor_of(ground: GroundProfile, plane: Plane, p: NegativeParameters) -> Flo
 
 def _continued(over_m: Floats, block_m: float, p: NegativeParameters) -> Floats:
     """Known blocks as low as their lowest neighbour, and block by block what lies beside them, bent
-    down. A block that is known almost alone is none: far away, in a bend, it may well be the foot of
-    a wall."""
+    down. One that is known almost alone is none: far away, in a bend, it may be a wall's foot."""
     known = over_m < 0.5 * UNKNOWN_M
     known &= _beside(np.add, known.astype(np.int8)) >= LEAST_TOGETHER
     lowest = -_beside(np.maximum, np.where(known, -over_m, -UNKNOWN_M))

@@ -60,10 +60,14 @@ class Deciding:
             if reply.found:
                 self._plot.show(reply.found)
             self._words.content = told(reply.found) if reply.found else reply.trouble
-        elif self._started and not (reply and reply.trouble):
-            self._wait(moment.time_s)
+        elif self._waits(reply):
+            reached_s, end_s = self._worker.reached_s, self._show.timeline.end_s
+            far = f"replaying, {reached_s:.0f} of {end_s:.0f} s"
+            doing = far if moment.time_s > reached_s else "working"
+            self._words.content = f"**{moment.time_s:.1f} s:** {doing} ..."
 
-    def _wait(self, time_s: float) -> None:
-        reached_s, end_s = self._worker.reached_s, self._show.timeline.end_s
-        if time_s > reached_s:
-            self._words.content = f"Replaying: {reached_s:.0f} of {end_s:.0f} s."
+    def _waits(self, reply: Reply | None) -> bool:
+        """Whether people wait for an answer; while it plays, the last one will do."""
+        if not self._started or (reply and reply.trouble and not reply.question):
+            return False
+        return not self._worker.answered and not self._show.player.playing

@@ -12,7 +12,7 @@ from ion.view.decide.decisions import Found
 from nav.angles import wrapped
 from nav.messages import Floats
 
-HEIGHT_PX = 210
+HEIGHT_PX = 230
 DASH = (6.0, 4.0)
 CURVES = (
     ("D_R", "distance_real_m", REAL, 1.0), ("D_S", "distance_safe_m", SAFE, 1.0),
@@ -21,7 +21,13 @@ CURVES = (
 """Label, key, colour, width."""
 TUNED = CURVES[2:]
 """What other terms change."""
-MARKS = (("goal φ", "goal_rad", GOAL, 1.0), ("θ_D", "decision_rad", DECIDED, 2.5))
+MARKS = (
+    ("goal φ", "goal_rad", GOAL, 1.0), ("θ_RD", "decision_real_rad", REAL, 1.0),
+    ("θ_SD", "decision_safe_rad", SAFE, 1.0), ("θ_D", "decision_rad", DECIDED, 2.5),
+)  # fmt: skip
+SETS = (("I", "candidates_real", REAL, 5.0), ("J", "candidates_safe", SAFE, 5.0))
+"""The candidate sets, as bars below the curves; what is within a criterion of the best."""
+BELOW_M = 1.2
 EDGE = 1e-6
 """Between the two ends of an upright line, [deg]: x must increase."""
 
@@ -30,8 +36,8 @@ class DecisionPlot:
     """Draws it into what is open when it is made; what other terms make of it is dashed."""
 
     def __init__(self, gui: viser.GuiApi) -> None:
-        was = [_series(*c[:1], *c[2:]) for c in (*CURVES, *MARKS)]
-        would = [_series(f"{c[0]}, tuned", *c[2:], dash=DASH) for c in (*TUNED, MARKS[1])]
+        was = [_series(*c[:1], *c[2:]) for c in (*CURVES, *MARKS, *SETS)]
+        would = [_series(f"{c[0]}, tuned", *c[2:], dash=DASH) for c in (*TUNED, MARKS[-1])]
         series = (uplot.Series(label="deg"), *was, *would)
         x = np.array([-90.0, 90.0])
         self._count = len(series) - 1
@@ -52,12 +58,15 @@ class DecisionPlot:
         curves = [_curve(found.was, key) for _, key, *_ in CURVES]
         tuned = [_curve(tables[1], key) for _, key, *_ in TUNED]
         low, high = _limits([*curves, *tuned])
-        lines = [*marks[0], marks[1][1]]
-        ends = [np.array([at, at + EDGE]) for at in lines if at is not None]
+        ends = [np.array([at, at + EDGE]) for at in (*marks[0], marks[1][-1]) if at is not None]
         x = np.unique(np.concatenate([c[0] for c in curves if c is not None] + ends or [[-90.0]]))
         rows = [_over(c, x) for c in curves]
         rows += [_upright(at, x, low, high) for at in marks[0]]
-        rows += [_over(c, x) for c in tuned] + [_upright(marks[1][1], x, low, high)]
+        rows += [
+            _bar(found.was, key, x, low - (1 + k) * BELOW_M) for k, (_, key, *_) in enumerate(SETS)
+        ]
+        rows += [_over(c, x) for c in tuned] + [_upright(marks[1][-1], x, low, high)]
+        low -= (1 + len(SETS)) * BELOW_M
         self._plot.data = (x, *rows)
         self._plot.scales = _scales(low, high)
 
@@ -72,12 +81,21 @@ def _curve(n: Numbers, key: str) -> tuple[Floats, Floats] | None:
     if n.get("theta_rad") is None or n.get(key) is None:
         return None
     degrees = -np.degrees(np.array(n["theta_rad"]) - n["heading_rad"])
-    return degrees[::-1], np.array(n[key])[::-1]
+    return degrees[::-1], np.array(n[key], float)[::-1]
 
 
 def _aside(n: Numbers, theta_rad: float | None) -> float | None:
     """A direction as drawn, [deg]."""
     return None if theta_rad is None else -float(np.degrees(wrapped(theta_rad - n["heading_rad"])))
+
+
+def _bar(n: Numbers, key: str, x: Floats, height_m: float) -> Floats:
+    """A candidate set: a level line where a direction is in it."""
+    inside = _curve(n, key)
+    if inside is None:
+        return np.full(len(x), np.nan)
+    at = np.clip(np.searchsorted(inside[0], x), 0, len(inside[0]) - 1)
+    return np.where(inside[1][at] > 0.0, height_m, np.nan)
 
 
 def _over(curve: tuple[Floats, Floats] | None, x: Floats) -> Floats:

@@ -52,7 +52,6 @@ class Worker:
     reached_s: float = 0.0
     """How far the replay is."""
     _asked: Question | None = None
-    _waiting: bool = False
     _pipe: "Connection | None" = field(default=None, repr=False)
 
     def start(self) -> None:
@@ -63,10 +62,15 @@ class Worker:
         theirs.close()
 
     def ask(self, question: Question) -> None:
-        """Ask, unless that is asked already or an answer is awaited: then ask again later."""
-        if self._pipe and not self._waiting and question != self._asked:
-            self._asked, self._waiting = question, True
+        """Ask, unless that is asked already; what was asked before is forgotten."""
+        if self._pipe and question != self._asked:
+            self._asked = question
             self._pipe.send(question)
+
+    @property
+    def answered(self) -> bool:
+        """Whether `reply` is to the last question."""
+        return self.reply is not None and self.reply.question == self._asked
 
     def look(self) -> None:
         """Take the replies that have come."""
@@ -74,12 +78,13 @@ class Worker:
             while self._pipe and self._pipe.poll():
                 self._take(self._pipe.recv())
         except (EOFError, OSError):
-            self._pipe, self._waiting = None, False
+            self._pipe = None
+            self.reply = Reply(None, None, "The replay of the tape has ended unexpectedly.", 0.0)
 
     def _take(self, reply: Reply) -> None:
         self.reached_s = reply.reached_s
         if reply.question is not None or reply.trouble:
-            self.reply, self._waiting = reply, False
+            self.reply = reply
 
 
 def _serve(pipe: "Connection", log: Path) -> None:
@@ -99,8 +104,8 @@ def _answer_all(pipe: "Connection", decisions: Decisions) -> None:
     question: Question | None = None
     more, told_s = True, 0.0
     while True:
-        if not more or pipe.poll():
-            question = pipe.recv() if question is None else question
+        while pipe.poll() or (question is None and not more):
+            question = pipe.recv()
         if question is not None and (not more or decisions.reached_s > question.time_s):
             pipe.send(_answer(decisions, question))
             question = None

@@ -67,7 +67,8 @@ class RestOfRun:
                 came = came or task == self.task
                 self.told += [told] if task == self.task else []
         except (EOFError, OSError):
-            self._pipe = None
+            self._pipe, came = None, self.task is not None
+            self.told = [Told(0.0, trouble="its process has ended unexpectedly")]
         return came
 
 
