@@ -1,11 +1,11 @@
-"""The file of `--out`, tried before the work begins."""
+"""The file that an option names: tried before the work begins, written whole or not at all."""
 
 from pathlib import Path
 
 from ion.errors import UsageError
 
 
-def check_file(path: Path) -> None:
+def check_file(path: Path, option: str = "--out") -> None:
     """Make its folder, and see that it can be written; a file that is there stays as it is.
 
     Raises:
@@ -18,4 +18,14 @@ def check_file(path: Path) -> None:
         if not path.stat().st_size:
             path.unlink()
     except OSError as error:
-        raise UsageError(f"--out {path}: cannot be written: {error.strerror}") from error
+        raise UsageError(f"{option} {path}: cannot be written: {error.strerror}") from error
+
+
+def write_whole(path: Path, text: str) -> None:
+    """Written beside it and moved there: Ctrl-C and a full disk leave what was there before."""
+    part = path.with_name(path.name + ".part")
+    try:
+        part.write_text(text, encoding="utf-8")
+        part.replace(path)
+    finally:
+        part.unlink(missing_ok=True)

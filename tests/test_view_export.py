@@ -69,6 +69,7 @@ def test_an_event_is_gone_to_and_back(page):
 def test_it_says_what_was_left_out(page):
     page.get_by_text("about this page").click()
     page.get_by_text("point clouds at 2 Hz").wait_for()
+    page.get_by_text("the trajectory as it grows").wait_for()
     page.get_by_text("ion drive dead_end --seed 0").wait_for()
 
 
@@ -91,3 +92,9 @@ def test_what_is_not_on_the_tape_is_refused(short_tape, tmp_path, asked):
     assert done.returncode == 2
     assert re.fullmatch(r"ion: --from \S+ --to \S+: expected a part of 0 to .* s\n", done.stderr)
     assert not (tmp_path / "no.html").exists()
+
+
+def test_a_folder_is_refused_under_its_own_option(short_tape, tmp_path):
+    done = export(short_tape, tmp_path)
+    assert done.returncode == 2
+    assert done.stderr == f"ion: --export {tmp_path}: cannot be written: Is a directory\n"

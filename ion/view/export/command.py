@@ -9,7 +9,7 @@ from rich.console import Console
 from rich.progress import BarColumn, Progress, TextColumn
 
 from ion.errors import UsageError
-from ion.out_file import check_file
+from ion.out_file import check_file, write_whole
 from ion.recorded import recorded
 from ion.view.export.recording import Passed, recorded_html
 from ion.view.export.told import told
@@ -29,7 +29,7 @@ def export(options: Options, path: Path) -> int:
         UsageError: the file cannot be written, or the span is none of the tape.
         TapeError: no tape, or one that `ion drive` did not write.
     """
-    check_file(path)
+    check_file(path, "--export")
     span_s = _span(options)
     show = Show(recorded(options.log), Timeline(options.log))
     columns = (TextColumn("{task.description}"), BarColumn(), TextColumn("{task.completed:.0f} s"))
@@ -39,7 +39,7 @@ def export(options: Options, path: Path) -> int:
         span_s = (max(span_s[0], show.timeline.start_s), span_s[1])
         progress.update(task, description="draw", total=span_s[1] - span_s[0])
         page = _page(show, span_s, lambda s: progress.update(task, completed=s - span_s[0]))
-    path.write_text(page, encoding="utf-8")
+    write_whole(path, page)
     size_mb = path.stat().st_size / 1e6
     print(f"{path}: {size_mb:.1f} MB, {span_s[0]:.1f} to {span_s[1]:.1f} s")
     if size_mb > MOST_MB:

@@ -13,7 +13,8 @@ from ion.view.words import sentence, state_name
 WORDS_S, CURVES_S = 0.5, 0.2
 LEFT_OUT = (
     "point clouds at 2 Hz, as half floats (they err by up to 3 cm); "
-    "decisions (Fig. 6.7) and tuning; {more}"
+    "the trajectory as it grows (it is drawn whole); "
+    "cameras other than the mouse; decisions (Fig. 6.7) and tuning; {more}"
 )
 
 
