@@ -13,9 +13,10 @@ def check_file(path: Path, option: str = "--out") -> None:
     """
     try:
         path.parent.mkdir(parents=True, exist_ok=True)
+        there = path.exists()
         with open(path, "ab"):
             pass
-        if not path.stat().st_size:
+        if not there:
             path.unlink()
     except OSError as error:
         raise UsageError(f"{option} {path}: cannot be written: {error.strerror}") from error
@@ -23,6 +24,9 @@ def check_file(path: Path, option: str = "--out") -> None:
 
 def write_whole(path: Path, text: str) -> None:
     """Written beside it and moved there: Ctrl-C and a full disk leave what was there before."""
+    if path.exists() and not path.is_file():  # a device or a pipe
+        path.write_text(text, encoding="utf-8")
+        return
     part = path.with_name(path.name + ".part")
     try:
         part.write_text(text, encoding="utf-8")
