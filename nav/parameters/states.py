@@ -81,6 +81,8 @@ class StuckParameters:
     """... for this long: no forward path leads there."""
     tries: int
     """Sets of robotic operations at one place (six in the paper)."""
+    same_tries: int
+    """After so many sets at one place, the next goes back for another path."""
     progress_m: float
     """Farther along the route than where it was stuck by this: the trouble is over."""
     detour_reach_m: float

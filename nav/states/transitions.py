@@ -194,11 +194,12 @@ def operations_done(s: Situation, memory: Memory, p: Parameters) -> str:
 
 def no_operations(s: Situation, memory: Memory, p: Parameters) -> str:
     """No operations lead out of here: back along the trajectory till another path can begin."""
+    again = memory.trouble.tries > p.states.stuck.same_tries
     found = not (memory.manoeuvre and memory.manoeuvre.search.exhausted)
-    if found or rollback.way_back_m(s, memory, p) <= 0.0:
+    if (found and not again) or rollback.way_back_m(s, memory, p) <= 0.0:
         return ""
     memory.trouble.rolls_far = True
-    return "no unit operations lead out"
+    return "unit operations lead back here" if found else "no unit operations lead out"
 
 
 def _stopped(memory: Memory, p: Parameters) -> bool:
