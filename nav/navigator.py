@@ -12,7 +12,7 @@ from nav.fusion.ego_state import EgoState
 from nav.fusion.health import HealthMonitor
 from nav.fusion.obstacle_map import ObstacleMap
 from nav.fusion.radar import Echoes, echoes
-from nav.fusion.scan_geometry import Pose
+from nav.fusion.scan_geometry import Sweep
 from nav.high_level import HighLevelController, Senses
 from nav.messages import (
     EgoEstimate,
@@ -146,7 +146,7 @@ class IonNavigator:
         """Bring the map up to date with all scans since the last decision."""
         x, y = (float(v) for v in ego.position_m)
         self.obstacles.recenter(x, y)
-        self.obstacles.integrate(self._scans_with_poses(), self._echoes(time_ns))
+        self.obstacles.integrate(self._sweeps(), self._echoes(time_ns))
         if self._sonar and _is_fresh(self._sonar.time_ns, time_ns):
             pose = self.ego.pose_at(self._sonar.time_ns)
             self.obstacles.integrate_sonar(self._sonar.range_m, pose)
@@ -158,13 +158,20 @@ class IonNavigator:
             return None
         return echoes(tracks, radars[device(tracks)], self.ego.pose_at(tracks.time_ns))
 
-    def _scans_with_poses(self) -> list[tuple[LidarScan, Pose]]:
+    def _sweeps(self) -> list[Sweep]:
         """The newest scans of each scanner since the last decision, oldest first."""
         scans = [scan for each in self._scans.values() for scan in each]
         for each in self._scans.values():
             each.clear()
         scans.sort(key=lambda scan: scan.time_ns)
-        return [(scan, self.ego.pose_at(scan.time_ns)) for scan in scans]
+        return [self._swept(scan) for scan in scans]
+
+    def _swept(self, scan: LidarScan) -> Sweep:
+        """A scan, with the estimate at its last beam and, if that makes a difference, its first."""
+        sweep_s, pose = self.obstacles.geometry[scan.sensor].sweep_s, self.ego.pose_at(scan.time_ns)
+        if not sweep_s:
+            return Sweep(scan, pose)
+        return Sweep(scan, pose, self.ego.pose_at(scan.time_ns - round(sweep_s * 1e9)))
 
     def _warm(self, time_ns: int) -> bool:
         """Whether the ego state has been known long enough for the map to fill."""

@@ -14,7 +14,7 @@ from test_obstacle_map import GEOMETRY, PARAMETERS, VEHICLE
 from nav.fusion.expected_ground import expected
 from nav.fusion.negative_obstacles import _in_wide_runs
 from nav.fusion.obstacle_map import ObstacleMap
-from nav.fusion.scan_geometry import Pose, placed
+from nav.fusion.scan_geometry import Pose, Sweep, placed
 from nav.messages import LidarScan
 from scenarios.geometry import Pose as Place
 from scenarios.route.course import DESERT
@@ -85,7 +85,7 @@ class World:
                 roll_rad=pose.roll_rad + self.error[0], pitch_rad=pose.pitch_rad + self.error[1]
             )
             names = ("lidar_roof", "lidar_bumper")
-            heard += [(self.scan(n, pose, ground, k * 50_000_000), said) for n in names]
+            heard += [Sweep(self.scan(n, pose, ground, k * 50_000_000), said) for n in names]
             if k % 2:
                 self.chart.integrate(heard)
                 heard = []
@@ -205,7 +205,7 @@ def test_ground_that_is_seen_there_takes_a_drop_away():
     pose, ground = stand(world.terrain, 19.0)
     for k in range(100):  # it sways, and so sees all of it
         swung = pose._replace(pitch_rad=0.006 * np.sin(0.3 * k))
-        world.chart.integrate([(world.scan("lidar_roof", swung, ground, 10**10 + k), swung)])
+        world.chart.integrate([Sweep(world.scan("lidar_roof", swung, ground, 10**10 + k), swung)])
     assert len(world.drops().T) < 10
 
 

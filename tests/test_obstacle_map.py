@@ -10,7 +10,7 @@ import pytest
 
 from nav.errors import NavError
 from nav.fusion.obstacle_map import ObstacleMap
-from nav.fusion.scan_geometry import Pose, placed, scan_geometry
+from nav.fusion.scan_geometry import Pose, Sweep, placed, scan_geometry
 from nav.messages import LidarScan
 from nav.parameters.loader import from_toml
 from nav.parameters.obstacle_map import ObstacleMapParameters
@@ -80,7 +80,7 @@ def tick(chart: ObstacleMap, pose: Pose, boxes: list[Box], ground: Ground = flat
     said = Pose(*(a + b for a, b in zip(pose, error, strict=True)))
     names = more.get("names", MOUNTS)
     scans = [scan(n, pose, boxes, ground, time_s + t) for t in (0.0, 0.05) for n in names]
-    chart.integrate([(s, said) for s in scans])
+    chart.integrate([Sweep(s, said) for s in scans])
 
 
 def drive(chart: ObstacleMap, boxes: list[Box], ground: Ground = flat, **more) -> int:
@@ -207,7 +207,7 @@ def test_one_return_is_no_obstacle_two_are(chart: ObstacleMap) -> None:
     drive(chart, [])
     range_m = np.array(scan("lidar_bumper", Pose(0, 0, 0, 0, 0), []).range_m)
     range_m[180] = 10.0
-    one = [(LidarScan(3_000_000_000, "lidar_bumper", range_m), Pose(0, 0, 0, 0, 0))]
+    one = [Sweep(LidarScan(3_000_000_000, "lidar_bumper", range_m), Pose(0, 0, 0, 0, 0))]
     chart.integrate(one)
     assert len(chart.occupied().index) == 0
     chart.integrate(one)
@@ -274,4 +274,4 @@ def test_sonar_marks_after_three_echoes(chart: ObstacleMap) -> None:
 def test_an_unknown_scanner_is_refused(chart: ObstacleMap) -> None:
     message = LidarScan(0, "lidar_tail", np.full(361, 81.92))
     with pytest.raises(NavError, match="no LIDAR is named 'lidar_tail'; known are lidar_bumper"):
-        chart.integrate([(message, Pose(0, 0, 0, 0, 0))])
+        chart.integrate([Sweep(message, Pose(0, 0, 0, 0, 0))])

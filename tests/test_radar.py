@@ -9,7 +9,7 @@ from test_obstacle_map import GATE, PARAMETERS, VEHICLE, drive, flat, on, scan
 
 from nav.fusion.obstacle_map import ObstacleMap
 from nav.fusion.radar import echoes
-from nav.fusion.scan_geometry import Pose
+from nav.fusion.scan_geometry import Pose, Sweep
 from nav.messages import LidarScan, RadarTracks
 from scenarios.ablation import disabled_sensors
 from scenarios.course import Course
@@ -41,18 +41,18 @@ def chart() -> ObstacleMap:
     return chart
 
 
-def one_return(range_m: float = 10.0) -> list[tuple[LidarScan, Pose]]:
+def one_return(range_m: float = 10.0) -> list[Sweep]:
     """One beam of the scanner on the bumper ends straight ahead, at x = 2.05 m + range."""
     beams = np.array(scan("lidar_bumper", STILL, []).range_m)
     beams[180] = range_m
-    return [(LidarScan(3_000_000_000, "lidar_bumper", beams), STILL)]
+    return [Sweep(LidarScan(3_000_000_000, "lidar_bumper", beams), STILL)]
 
 
 def test_tracks_alone_make_no_obstacle(chart: ObstacleMap) -> None:
     post = seen((12.05, 0.0), (8.0, 0.5))
     for k in range(50):
         pose = on(flat, 0.0)
-        scans = [(scan(n, pose, [], time_s=3.0 + 0.1 * k), pose) for n in VEHICLE.lidar_mounts]
+        scans = [Sweep(scan(n, pose, [], time_s=3.0 + 0.1 * k), pose) for n in VEHICLE.lidar_mounts]
         chart.integrate(scans, post)
     assert not chart.grid.any()
 
@@ -96,7 +96,7 @@ def first_seen(with_radar: bool, most: int) -> int:
     for k in range(most):
         message = one_return()[0][0] if k % 2 == 0 else scan("lidar_bumper", STILL, [])
         now = replace(message, time_ns=3_000_000_000 + k * 100_000_000)
-        chart.integrate([(now, STILL)], seen((12.05, 0.0)) if with_radar else None)
+        chart.integrate([Sweep(now, STILL)], seen((12.05, 0.0)) if with_radar else None)
         if len(chart.occupied().index):
             return k
     return most
@@ -112,7 +112,7 @@ def test_tracks_do_not_hold_up_what_is_gone(chart: ObstacleMap) -> None:
         chart.integrate(one_return(), seen((12.05, 0.0)))
     for k in range(10):
         pose = on(flat, 0.0)
-        scans = [(scan(n, pose, [], time_s=3.1 + 0.1 * k), pose) for n in VEHICLE.lidar_mounts]
+        scans = [Sweep(scan(n, pose, [], time_s=3.1 + 0.1 * k), pose) for n in VEHICLE.lidar_mounts]
         chart.integrate(scans, seen((12.05, 0.0)))
     assert len(chart.occupied().index) == 0
 
@@ -129,7 +129,7 @@ def test_tracks_of_its_posts_do_not_shut_a_gate(chart: ObstacleMap) -> None:
             azimuth_rad=said.azimuth_rad + worst * 0.0035,
         )
         scans = [
-            (scan(n, pose, GATE, time_s=3.0 + 0.1 * k + t), pose)
+            Sweep(scan(n, pose, GATE, time_s=3.0 + 0.1 * k + t), pose)
             for t in (0.0, 0.05)
             for n in VEHICLE.lidar_mounts
         ]

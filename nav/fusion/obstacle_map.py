@@ -25,14 +25,16 @@ from nav.fusion.negative_obstacles import NOTHING, drops
 from nav.fusion.radar import Echoes
 from nav.fusion.scan_geometry import (
     Pose,
+    ScanGeometry,
     Scans,
+    Sweep,
     level_points,
     placed,
     returns,
     scan_geometry,
 )
 from nav.fusion.see_through import look
-from nav.messages import Floats, LidarScan
+from nav.messages import Floats
 from nav.parameters.obstacle_map import ObstacleMapParameters
 from nav.parameters.vehicle import Outline, VehicleParameters
 
@@ -147,28 +149,27 @@ class ObstacleMap:
         self.lattice = to
         self.ground.recentre(x_m, y_m)
 
-    def integrate(
-        self, scans: Sequence[tuple[LidarScan, Pose]], echoes: Echoes | None = None
-    ) -> None:
+    def integrate(self, sweeps: Sequence[Sweep], echoes: Echoes | None = None) -> None:
         """Take in the scans of one tick, oldest first, each with the estimate at its time; and
         what the radar tells meanwhile, if it does.
 
         Raises:
             NavError: a scan of a scanner that the vehicle does not have.
         """
-        chosen = self._newest(scans)
+        chosen = self._newest(sweeps)
         if not chosen:
             return
-        time_ns, pose = chosen[-1][0].time_ns, chosen[-1][1]
+        time_ns, pose = chosen[-1].scan.time_ns, chosen[-1].pose
         self._follow(pose)
-        chosen.sort(key=lambda each: each[0].sensor not in self._teachers)
+        chosen.sort(key=lambda sweep: sweep.scan.sensor not in self._teachers)
         views = self._views(chosen)
-        steep = [scan.sensor for scan, _ in chosen if scan.sensor in self._teachers]
+        sensors = [sweep.scan.sensor for sweep in chosen]
+        steep = [sensor for sensor in sensors if sensor in self._teachers]
         expect = expected(self.ground, self._negative) if self._negative.enabled and steep else None
         lower = drops(views.only(list(range(len(steep)))), expect, pose) if expect else NOTHING
         hits, points = self._mark(views, len(steep), pose, expect)
         self._gather(hits, points, echoes)
-        newest = {scan.sensor: k for k, (scan, _) in enumerate(chosen)}
+        newest = {sensor: k for k, sensor in enumerate(sensors)}
         self._decay(views.only(list(newest.values())), self._elapsed_s(time_ns))
         self._add(hits)
         self._mark_drops(lower)
@@ -194,22 +195,25 @@ class ObstacleMap:
         self._top.ravel()[index] = np.maximum(self._top.ravel()[index], top)
         self._clear_footprint(pose)
 
-    def _newest(self, scans: Sequence[tuple[LidarScan, Pose]]) -> list[tuple[LidarScan, Pose]]:
+    def _newest(self, sweeps: Sequence[Sweep]) -> list[Sweep]:
         left = dict.fromkeys(self.geometry, self.parameters.scans_per_sensor)
-        chosen: list[tuple[LidarScan, Pose]] = []
-        for scan, pose in reversed(scans):
-            if scan.sensor not in left:
-                raise NavError(f"no LIDAR is named {scan.sensor!r}; known are {', '.join(left)}")
-            if left[scan.sensor] > 0:
-                chosen.append((scan, pose))
-            left[scan.sensor] -= 1
+        chosen: list[Sweep] = []
+        for sweep in reversed(sweeps):
+            name = sweep.scan.sensor
+            if name not in left:
+                raise NavError(f"no LIDAR is named {name!r}; known are {', '.join(left)}")
+            if left[name] > 0:
+                chosen.append(sweep)
+            left[name] -= 1
         return chosen[::-1]
 
-    def _views(self, scans: Sequence[tuple[LidarScan, Pose]]) -> Scans:
-        geometry = [self.geometry[scan.sensor] for scan, _ in scans]
-        poses = [pose for _, pose in scans]
-        frame = np.array([placed(*each) for each in zip(geometry, poses, strict=True)])
-        return Scans(geometry, frame, np.array([scan.range_m for scan, _ in scans]))
+    def _views(self, sweeps: Sequence[Sweep]) -> Scans:
+        geometry = [self.geometry[sweep.scan.sensor] for sweep in sweeps]
+        frame = _placed(geometry, [sweep.pose for sweep in sweeps])
+        range_m = np.array([sweep.scan.range_m for sweep in sweeps])
+        began = [sweep.began for sweep in sweeps if sweep.began]
+        moved = frame - _placed(geometry, began) if len(began) == len(sweeps) else None
+        return Scans(geometry, frame, range_m, moved)
 
     def _follow(self, pose: Pose, new_bound: bool = True) -> None:
         self.recenter(pose.x_m, pose.y_m)
@@ -342,6 +346,11 @@ class ObstacleMap:
         left = np.maximum(cells[index] - loss, 0.0)
         cells[index] = left
         self._top.ravel()[index[left == 0.0]] = _NO_TOP_M
+
+
+def _placed(geometry: Sequence[ScanGeometry], poses: Sequence[Pose]) -> Floats:
+    """Scanners in the level frame, shape (k, 3, 3)."""
+    return np.array([placed(*each) for each in zip(geometry, poses, strict=True)])
 
 
 def _merged(held: Ints, more: Ints) -> Ints:

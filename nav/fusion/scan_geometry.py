@@ -6,13 +6,13 @@ The level frame has the axes of N and its height zero at the reference point, so
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from math import cos, sin
+from math import cos, pi, sin
 from typing import NamedTuple
 
 import numpy as np
 
 from nav.fusion.lattice import Ints
-from nav.messages import LIDAR_COUNT_M, LIDAR_NO_RETURN_COUNT, Floats
+from nav.messages import LIDAR_COUNT_M, LIDAR_NO_RETURN_COUNT, Floats, LidarScan
 from nav.parameters.vehicle import Lidar, LidarMount, Outline
 
 NO_RETURN_M = (LIDAR_NO_RETURN_COUNT - 0.5) * LIDAR_COUNT_M
@@ -43,6 +43,20 @@ class ScanGeometry:
     """Shape (count,): where each beam leaves the vehicle's own outline, [m]."""
     first_rad: float
     step_rad: float
+    sweep_s: float
+    """From the first beam to the last, whose time the scan bears."""
+    age: Floats
+    """Shape (count,): how old each beam is by then, as a share of the sweep."""
+
+
+class Sweep(NamedTuple):
+    """A scan, and where the vehicle was meanwhile."""
+
+    scan: LidarScan
+    pose: Pose
+    """At its last beam."""
+    began: Pose | None = None
+    """At its first beam; None: it was quick, or the vehicle stood."""
 
 
 class Scans(NamedTuple):
@@ -53,9 +67,11 @@ class Scans(NamedTuple):
     """Shape (k, 3, 3): as `placed`, at each scan's time."""
     range_m: Floats
     """Shape (k, count)."""
+    moved: Floats | None = None
+    """Shape (k, 3, 3): how much `frame` has changed since the first beam."""
 
     def only(self, which: list[int]) -> "Scans":
-        """Some of them."""
+        """Some of them, without how they moved."""
         chosen = [self.geometry[k] for k in which]
         return Scans(chosen, self.frame[which], self.range_m[which])
 
@@ -79,6 +95,7 @@ def scan_geometry(mount: LidarMount, lidar: Lidar, outline: Outline) -> ScanGeom
     axes = rotation(mount.roll_rad, mount.pitch_rad, mount.yaw_rad)[:, :2]
     angle = lidar.first_rad + lidar.step_rad * np.arange(lidar.count)
     ray = np.stack([np.cos(angle), np.sin(angle)])
+    sweep_s, age = _sweep(lidar)
     position = np.array(mount.position_m)
     return ScanGeometry(
         mount=np.column_stack([axes, position]),
@@ -86,7 +103,16 @@ def scan_geometry(mount: LidarMount, lidar: Lidar, outline: Outline) -> ScanGeom
         exit_m=_exit_m(position, axes @ ray, outline),
         first_rad=lidar.first_rad,
         step_rad=lidar.step_rad,
+        sweep_s=sweep_s,
+        age=age,
     )
+
+
+def _sweep(lidar: Lidar) -> tuple[float, Floats]:
+    """From the first beam to the last [s], and the ages of all beams (count,) as shares of it."""
+    beam = np.arange(lidar.count)
+    turns = beam * (lidar.step_rad / (2.0 * pi)) + beam % 2
+    return float(turns.max()) * lidar.turn_s, 1.0 - turns / turns.max()
 
 
 def _exit_m(position: Floats, direction: Floats, outline: Outline) -> Floats:
@@ -125,4 +151,7 @@ def level_points(scans: Scans, beam: Ints) -> Floats:
     """Where some beams end, in the level frame: shape (3, m), [m]; `beam` as from `returns`."""
     way = scans.range_m[:, None] * scans.geometry[0].ray  # (k, 2, count)
     points = scans.frame[:, :, :2] @ way + scans.frame[:, :, 2:]  # (k, 3, count)
+    if scans.moved is not None:  # a turn of some hundredths between two frames is linear
+        since = scans.moved[:, :, :2] @ way + scans.moved[:, :, 2:]
+        points -= scans.geometry[0].age * since
     return points.swapaxes(0, 1).reshape(3, -1).take(beam, axis=1)

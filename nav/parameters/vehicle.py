@@ -44,6 +44,9 @@ class Lidar:
     step_rad: float
     count: int
     max_range_m: float
+    turn_s: float = 0.0
+    """Of the mirror, which turns twice for a scan: every second beam, then those in between. A
+    scan bears the time of its last beam. 0: all beams at once."""
 
 
 @dataclass(frozen=True)

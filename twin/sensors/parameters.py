@@ -34,6 +34,20 @@ class LidarParameters(Timing, frozen=True):
     max_range_m: float
     noise_sd_m: float
     bias_sd_m: float
+    turn_s: float
+    """Of the mirror; it turns twice for a scan. 0: all beams at once."""
+    beam_rad: float
+    """Width of a beam: its divergence."""
+    edge_m: float
+    """A step from beam to beam that is larger than this is an edge."""
+    pulse_m: float
+    """Echoes of one beam that lie within this of each other melt into one."""
+    share: float
+    """Of a beam, that a near thing must fill to be heard before a far one."""
+    tenth_range_m: float
+    """Up to where a surface is seen that reflects a tenth."""
+    reflectivity: dict[str, float]
+    """By the kind of thing, with `ground` and `other`."""
 
 
 class SonarParameters(Timing, frozen=True):
