@@ -1,4 +1,6 @@
 import pickle
+from math import tan
+from pathlib import Path
 
 import mujoco
 import numpy as np
@@ -9,6 +11,13 @@ from nav.messages import ActuatorTargets, Gear
 from twin import clock
 from twin.drivetrain import GearboxParameters
 from twin.plant import Plant
+from twin.vehicle import PIVOT_M, SIDES, STEERING_LIMIT_RAD, linkage
+
+CIRCLE = (
+    Path(__file__).parents[2] / "shared" / "data" / "polaris6x6_turning_circle_overbot_20050414.csv"
+)
+CIRCLE_MPS = 2.0
+"""A walk: 0.7 m/s^2 sideways on the tightest circle, a tenth of what the ground gives."""
 
 
 def flat(friction=0.7, things=(), tilt_rad=0.0):
@@ -117,6 +126,37 @@ def test_full_brake():
 def test_turns_like_the_measured_vehicle(steering_rad, speed_mps):
     wanted = np.sign(steering_rad) * measured_curvature(abs(steering_rad))
     assert cruise(plant(), 5.0, speed_mps, steering_rad) == pytest.approx(wanted, rel=0.05)
+
+
+@pytest.mark.skipif(
+    not CIRCLE.is_file(), reason=f"{CIRCLE} is not here: real data is not committed"
+)
+def test_drives_the_measured_circles():
+    points = np.genfromtxt(CIRCLE, delimiter=",", names=True)
+    assert len(points) == 10
+    for fraction, radius_m, _ in points.tolist():
+        driven = 1.0 / cruise(plant(), 5.0, CIRCLE_MPS, fraction * STEERING_LIMIT_RAD)
+        assert driven == pytest.approx(radius_m, rel=0.03), fraction
+
+
+def without_grip(axle):
+    """The flat world; the tires of one axle only bear load."""
+    model = flat()
+    model.geom("ground").condim = 1  # the larger one of ground and tire rules
+    for side in SIDES:
+        model.geom(f"{axle}_{side}_tire").condim = 1
+    return model
+
+
+def test_the_circle_comes_from_three_axles():
+    """Where the steering points, two axles go; three scrub, and go round a wider circle."""
+    three, front_rear, front_middle = (
+        cruise(plant(m), 5.0, CIRCLE_MPS, 0.4)
+        for m in (flat(), without_grip("middle"), without_grip("rear"))
+    )
+    assert tan(linkage(0.4)) / front_rear == pytest.approx(PIVOT_M, rel=0.03)
+    assert front_rear > 1.01 * three
+    assert front_middle > 2.0 * three
 
 
 def test_full_lock_circle():

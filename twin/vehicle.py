@@ -20,16 +20,17 @@ PIVOT_M = 2.29
 """Front axle to the line about which the vehicle turns (published: the manual's wheelbase)."""
 
 STEERING_LIMIT_RAD = 0.576
-LINKAGE_RATIO = 0.49
-LINKAGE_PROGRESSION_PER_RAD = 0.33
-"""Estimated: chosen so that the twin turns as the measured vehicle did, see `linkage`."""
+LINKAGE_RATIO = 0.485
+LINKAGE_PROGRESSION_PER_RAD = 0.30
+"""Estimated: fitted so that the twin turns as the measured vehicle did at 2 m/s, see `linkage`."""
 
 
 def linkage(steering_rad: float) -> float:
     """Mean angle of the front wheels [rad] for a position of the steering [rad].
 
     The measured turning circle (8.174 k - 13.82 k^2 of full steering) is nearly half of what
-    Ackermann geometry gives, and progressive; where the loss sits is unknown, so it is put here.
+    Ackermann geometry gives, and progressive. The scrubbing of three axles is the smaller part of
+    it; where the rest sits is unknown, so it is put here.
     """
     return steering_rad * (LINKAGE_RATIO + LINKAGE_PROGRESSION_PER_RAD * abs(steering_rad))
 
