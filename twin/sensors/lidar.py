@@ -43,11 +43,12 @@ class Lidar:
         p, rays = self._p, self._rays(view)
         true_m, what = cast_hits(self._sight.solid, *rays[:2], p.max_range_m, rays.rotations)
         true_m[true_m > self._reach_m[what]] = p.max_range_m
-        if self._sight.veil:
-            drawn = self._rng.random((p.beams, 1))
-            true_m = self._sight.veil.hide(true_m, rays, p.max_range_m, self.name, drawn)
         edge = self._edges.random(p.beams)
         seen_m = _mixed(true_m[:, 0], edge, p.beam_rad / _step_rad(p), p.edge_m, p.pulse_m, p.share)
+        if self._sight.veil:  # what leaves hold back is told of whole beams, however wide
+            drawn = self._rng.random((p.beams, 1))
+            veil = self._sight.veil
+            seen_m = veil.hide(seen_m[:, None], rays, p.max_range_m, self.name, drawn)[:, 0]
         noise = self._rng.standard_normal(p.beams)
         counts = _counts(seen_m, noise, self._bias_m, p.noise_sd_m, p.max_range_m)
         return LidarScan(time_ns, self.name, lidar_range_m(counts))
