@@ -48,7 +48,8 @@ def lidar_range_m(counts: NDArray[np.uint16]) -> Floats:
     return counts.astype(np.float64) * LIDAR_COUNT_M
 
 
-def _frozen(value: Any) -> Floats:
+def frozen(value: Any) -> Floats:
+    """A copy that nobody can change."""
     array = np.array(value, dtype=np.float64, order="C")
     array.setflags(write=False)
     return array
@@ -59,7 +60,7 @@ class _Message:
 
     def __post_init__(self) -> None:
         for name in _array_fields(type(self)):
-            object.__setattr__(self, name, _frozen(getattr(self, name)))
+            object.__setattr__(self, name, frozen(getattr(self, name)))
 
 
 @cache

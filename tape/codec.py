@@ -16,6 +16,7 @@ from nav.messages import (
     MESSAGE_TYPES,
     Floats,
     Message,
+    frozen,
     lidar_range_m,
 )
 from tape.errors import CodecError
@@ -64,7 +65,7 @@ def decode(kind: type[M], data: bytes) -> M:
     """
     plan = _plan(kind)
     try:
-        return kind(**_values(plan, plan.wire.FromString(data)))
+        return _made(kind, _values(plan, plan.wire.FromString(data)))
     except (DecodeError, TypeError, ValueError) as error:
         raise CodecError(f"{len(data)} bytes are no {kind.__name__}: {error}") from error
 
@@ -122,6 +123,13 @@ def _shape(name: str, array: Floats) -> tuple[int, ...]:
     return array.shape
 
 
+def _made(kind: type[M], values: dict[str, Any]) -> M:
+    """A message of all its fields, as unpickling makes one: its arrays are frozen already."""
+    message = object.__new__(kind)
+    vars(message).update(values)
+    return message
+
+
 def _values(plan: _Plan, wire: Any) -> dict[str, Any]:
     values = {name: getattr(wire, name) for name in plan.scalars}
     for name, kind in plan.enums:
@@ -129,10 +137,10 @@ def _values(plan: _Plan, wire: Any) -> dict[str, Any]:
     for name, shape in plan.arrays:
         array = np.frombuffer(getattr(wire, name), _DOUBLES)
         several = getattr(wire, shape)
-        values[name] = array.reshape(several) if several else array
+        values[name] = frozen(array.reshape(several) if several else array)
     for name, counts in plan.counts:
         steps = np.frombuffer(getattr(wire, counts), _COUNTS)
-        values[name] = lidar_range_m(np.add.accumulate(steps, dtype=_COUNTS))
+        values[name] = frozen(lidar_range_m(np.add.accumulate(steps, dtype=_COUNTS)))
     return values
 
 
