@@ -77,6 +77,7 @@ class ObstacleMap:
         """Flat indices, ascending, of the cells that hold confidence, and some more: a hundredth
         of all, so that nobody need look through the whole map."""
         self._gain = np.zeros(shape, np.float32)  # of this tick; zero between ticks
+        self._highest = np.full(shape, _NO_TOP_M)  # return of this tick; no top between ticks
         self.geometry = {
             name: scan_geometry(mount, vehicle.lidar, vehicle.outline)
             for name, mount in vehicle.lidar_mounts.items()
@@ -253,14 +254,15 @@ class ObstacleMap:
         teaching = np.zeros_like(ground)
         teaching[first] = met
         self.ground.learn(coarse, points[2], teaching, obstacle)
-        index, inside = self.lattice.index(points[0], points[1])
-        bare = teaching[first] & (np.abs(bump) < p.flat_m) & inside[first]
-        self._bare = index.take(np.flatnonzero(bare))
+        bare = np.flatnonzero(met & (np.abs(bump) < p.flat_m))
+        index, inside = self.lattice.index(points[0].take(bare), points[1].take(bare))
+        self._bare = index[inside]
         # a steep beam's height is uncertain: what only such beams have seen (a bale) counts as so
         # low that a level beam, which passes over it, does not deny it
         points[2, first] -= p.tilt_rad * distance[first]
-        hit = np.flatnonzero(obstacle & inside)
-        return index.take(hit), points.take(hit, axis=1)
+        hits = points.take(np.flatnonzero(obstacle), axis=1)
+        index, inside = self.lattice.index(hits[0], hits[1])
+        return index[inside], hits[:, inside]
 
     def _teaches(self, place: Floats, distance_m: Floats, expect: Expected | None) -> Bools:
         """Which ends of steep beams (3, n) may teach the ground: near ones, and farther ones that
@@ -289,13 +291,12 @@ class ObstacleMap:
         The highest of all would not do: one level beam that dips onto a bale far away, half a
         degree off, seems to have met something tall, and the next beams just over it deny it all.
         """
-        cells, which = np.unique(index, return_inverse=True)
-        highest = np.full(len(cells), _NO_TOP_M)
-        np.maximum.at(highest, which, height_m)
-        tops = self._top.ravel()
-        old = tops[cells]
+        tops, highest = self._top.ravel(), self._highest.ravel()
+        np.maximum.at(highest, index, height_m)
+        old = tops[index]
         share = np.where(old > _NO_TOP_M, _TOP_SHARE, 1.0)
-        tops[cells] = old + share * (highest - old)
+        tops[index] = old + share * (highest[index] - old)
+        highest[index] = _NO_TOP_M
 
     def _mark_drops(self, place_m: Floats) -> None:
         """Cells where drops are shown gain, and so do their neighbours.
