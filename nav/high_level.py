@@ -154,14 +154,14 @@ class HighLevelController:
         """phi(k): towards a point of the smooth path some seconds ahead."""
         p = self.parameters.planning.local_path
         reach = max(p.goal_min_m, p.goal_s * ego.speed_mps)
-        i = int(np.searchsorted(self.route.arc_m, self.here.arc_m + reach))
+        i = int(self.route.arc_m.searchsorted(self.here.arc_m + reach))
         x, y = self.route.position_m[min(i, len(self.route.arc_m) - 1)] - ego.position_m
         return atan2(float(y), float(x))
 
     def _far_goal(self, boundaries: Boundaries) -> tuple[float, float]:
         """The farthest point of the smooth path on the wide grid that is outside all boundaries;
         beyond the map all is free."""
-        end = int(np.searchsorted(self.route.arc_m, self.here.arc_m + WIDE_M))
+        end = int(self.route.arc_m.searchsorted(self.here.arc_m + WIDE_M))
         here = self.here.index  # beyond `end` when the vehicle is far behind its nearest place
         places = self.route.position_m[here : max(end, here) + 1]
         free = boundaries.at(places[:, 0], places[:, 1]) == FREE
@@ -201,7 +201,7 @@ class HighLevelController:
     def _corridor_segments(self, behind: int, ahead_m: float) -> tuple[int, int]:
         """The first segment that is drawn, and the one after the last."""
         segment = self._segment
-        end = int(np.searchsorted(self.route.arc_m, self.here.arc_m + ahead_m))
+        end = int(self.route.arc_m.searchsorted(self.here.arc_m + ahead_m))
         finish = end >= len(self.route.arc_m)
         last = int(self.route.segment[-1]) + 2 if finish else int(self.route.segment[end]) + 1
         return max(0, segment - behind), last

@@ -1,9 +1,10 @@
 """The local path of ten pathpoints (section 6.4): along the route, or in a decided direction."""
 
+from dataclasses import dataclass
 from math import cbrt, cos, sin
-from typing import NamedTuple
 
 import numpy as np
+from numpy.typing import NDArray
 
 from nav.messages import Floats
 from nav.parameters.planning import Footprint, LocalPathParameters
@@ -46,7 +47,7 @@ def route_ahead(
         look_ahead_m: how much of it.
     """
     first = min(index, len(route.arc_m) - 2)
-    end = int(np.searchsorted(route.arc_m, float(route.arc_m[first]) + look_ahead_m)) + 1
+    end = int(route.arc_m.searchsorted(float(route.arc_m[first]) + look_ahead_m)) + 1
     part = slice(first, max(end, first + 2))
     position, heading = route.position_m[part], route.heading_rad[part]
     arc = route.arc_m[part] - route.arc_m[first]
@@ -84,20 +85,41 @@ def towards(curves: Fan, row: int, x_m: float, y_m: float, heading_rad: float) -
     return sampled(np.stack([x_m + c * u - s * v, y_m + s * u + c * v], axis=1))
 
 
-class Clear(NamedTuple):
-    """Distances along a curve before the outline enters a boundary, [m]."""
+@dataclass(frozen=True, eq=False)
+class Clear:
+    """Distances along a curve before the outline enters a boundary, [m]: few are asked for."""
 
-    safe_m: float
-    real_m: float
-    touch_m: float
+    level: NDArray[np.uint8]
+    """Shape (1, k), of the samples: the highest of the outline's."""
+    highest: int
+    """Of all."""
+    arc_m: Floats
+    """Shape (k,), of the samples."""
+    footprint: Footprint
+
+    @property
+    def safe_m(self) -> float:
+        """Before the safe boundary."""
+        return self._before(SAFE)
+
+    @property
+    def real_m(self) -> float:
+        """Before the real boundary."""
+        return self._before(REAL)
+
+    @property
+    def touch_m(self) -> float:
+        """Before the outline itself touches."""
+        return self._before(TOUCH)
+
+    def _before(self, boundary: int) -> float:
+        if self.highest < boundary:  # mostly
+            return float(self.arc_m[-1])
+        return float(free_distance(self.level, self.arc_m, boundary, self.footprint)[0])
 
 
 def clear_distances(curve: Curve, boundaries: Boundaries, footprint: Footprint) -> Clear:
     """How far a curve is free of each boundary."""
     x, y = discs(curve.position_m.T, curve.heading_rad, footprint)
-    level = boundaries.at(x, y).max(axis=0)[None, :]
-    if not level.any():  # mostly
-        end = float(curve.arc_m[-1])
-        return Clear(end, end, end)
-    arc, three = curve.arc_m, (SAFE, REAL, TOUCH)
-    return Clear(*(float(free_distance(level, arc, b, footprint)[0]) for b in three))
+    level = boundaries.at(x, y).max(axis=0)
+    return Clear(level[None, :], int(level.max()), curve.arc_m, footprint)

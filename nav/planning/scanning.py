@@ -7,13 +7,14 @@ whole outline is moved along the curve, as discs on the vehicle's axis.
 """
 
 from dataclasses import dataclass
+from functools import lru_cache
 from math import cos, sin
 from typing import NamedTuple, TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
 
-from nav.messages import Floats
+from nav.messages import Floats, frozen
 from nav.parameters.planning import Footprint, Scanning
 from nav.planning.boundaries import REAL, SAFE, TOUCH
 
@@ -79,17 +80,24 @@ class Fan:
 
 def fan(scanning: Scanning, footprint: Footprint, turning: Turning) -> Fan:
     """Curves that wind the steering up, hold it, and unwind it so that they end in a direction."""
-    theta = np.linspace(-scanning.half_angle_rad, scanning.half_angle_rad, scanning.directions)
-    arc = np.arange(0.0, scanning.max_distance_m + 1e-9, scanning.step_m)
+    theta, arc = _samples(scanning)
     bend = _bend(theta, arc, turning)
     heading = np.zeros_like(bend)
-    np.cumsum(0.5 * (bend[:, 1:] + bend[:, :-1]) * scanning.step_m, axis=1, out=heading[:, 1:])
+    (0.5 * (bend[:, 1:] + bend[:, :-1]) * scanning.step_m).cumsum(axis=1, out=heading[:, 1:])
     middle = (0.5 * (heading[:, 1:] + heading[:, :-1])).astype(np.float32)
     position = np.zeros((2, *bend.shape), np.float32)
-    np.cumsum(scanning.step_m * np.cos(middle), axis=1, out=position[0, :, 1:])
-    np.cumsum(scanning.step_m * np.sin(middle), axis=1, out=position[1, :, 1:])
+    (scanning.step_m * np.cos(middle)).cumsum(axis=1, out=position[0, :, 1:])
+    (scanning.step_m * np.sin(middle)).cumsum(axis=1, out=position[1, :, 1:])
     centres = discs(position, heading.astype(np.float32), footprint)
     return Fan(theta, arc, position, heading, centres)
+
+
+@lru_cache
+def _samples(scanning: Scanning) -> tuple[Floats, Floats]:
+    """Directions (n,) and distances (m,): the same in every fan, so nobody may change them."""
+    theta = np.linspace(-scanning.half_angle_rad, scanning.half_angle_rad, scanning.directions)
+    arc = np.arange(0.0, scanning.max_distance_m + 1e-9, scanning.step_m)
+    return frozen(theta), frozen(arc)
 
 
 def _bend(theta: Floats, arc: Floats, t: Turning) -> Floats:
