@@ -57,8 +57,10 @@ def difference(tick: Tick, tolerance: float = 0.0) -> str:
 
 def _of_kinds(ours: Sequence[object], logged: Sequence[object]) -> list[Difference]:
     """Where one of both has a message that the other has not."""
+    if [*map(type, ours)] == [*map(type, logged)]:
+        return []
     now, then = (", ".join(type(m).__name__ for m in ms) for ms in (ours, logged))
-    return [] if now == then else [Difference(REPORTS, None, then, now, None)]
+    return [Difference(REPORTS, None, then, now, None)]
 
 
 def _of_fields(ours: Any, logged: Any, tolerance: float) -> Iterator[Difference]:

@@ -288,8 +288,8 @@ def test_ablations_silence_what_the_point_has(ablation):
 def test_contact_is_a_centre_distance_below_radius_and_disc():
     circles = circles_of([circle(10.0, 0.0, 2.0)])
     reach = 2.0 + P.drive.disc_radius_m
-    assert touched(circles, 10.0 - reach + 1e-6, 0.0, P.drive.disc_radius_m)[0]
-    assert not touched(circles, 10.0 - reach - 1e-6, 0.0, P.drive.disc_radius_m)[0]
+    assert touched(circles, 10.0 - reach + 1e-6, 0.0, P.drive.disc_radius_m).tolist() == [0]
+    assert not touched(circles, 10.0 - reach - 1e-6, 0.0, P.drive.disc_radius_m).size
 
 
 def test_the_truth_names_what_is_touched():

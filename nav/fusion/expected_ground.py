@@ -54,7 +54,8 @@ def _plane_of(ground: GroundProfile, p: NegativeParameters) -> Plane | None:
     if cells.size < LEAST_BLOCKS or far_out < LEAST_FAR:
         return None
     row, column = np.divmod(cells, len(height))
-    A = np.stack([np.ones(cells.size), east[column], north[row, 0]])
+    A = np.ones((3, cells.size))
+    A[1], A[2] = east[column], north[row, 0]
     normal = A @ A.T + SPREAD * np.eye(3)
     lifted = height.ravel()[cells] - ground.vehicle_m
     return Plane(*np.linalg.solve(normal, A @ lifted).tolist())

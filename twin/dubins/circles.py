@@ -25,13 +25,13 @@ def circles_of(obstacles: Sequence[Obstacle]) -> Floats:
 
 
 @njit(cache=True)
-def touched(circles: Floats, x: float, y: float, reach_m: float) -> NDArray[np.bool_]:
-    """Which circles' centres are nearer than their radius and `reach_m`, shape (n,)."""
+def touched(circles: Floats, x: float, y: float, reach_m: float) -> NDArray[np.int64]:
+    """Indices of the circles whose centres are nearer than their radius and `reach_m`."""
     hit = np.zeros(len(circles), np.bool_)
     for i in range(len(circles)):
         dx, dy, reach = circles[i, 0] - x, circles[i, 1] - y, circles[i, 2] + reach_m
         hit[i] = dx * dx + dy * dy < reach * reach
-    return hit
+    return np.flatnonzero(hit)
 
 
 @njit(cache=True)

@@ -61,7 +61,7 @@ class DubinsSimulator:
     def _touch(self) -> None:
         x, y, *_ = self.state
         hit = touched(self.circles, x, y, self.parameters.drive.disc_radius_m)
-        self._contacts = tuple(self._owners[i] for i in np.flatnonzero(hit)) if hit.any() else ()
+        self._contacts = tuple(self._owners[i] for i in hit)
 
     def reset(self, sensor: str) -> None:
         """No sensor of the field fails."""
