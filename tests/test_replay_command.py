@@ -13,7 +13,7 @@ from ion.courses import scenario_source
 from ion.job import Job
 from ion.replay import command
 from ion.replay.comparison import compare
-from ion.replay.picture import waveform
+from ion.replay.picture import both, waveform
 from nav.messages import Decision
 from scenarios.difference import difference, differences
 from scenarios.parameter_files import parameter_texts
@@ -222,5 +222,5 @@ def test_after_a_difference_all_ticks_are_kept_for_the_waveform(tape):
     assert found.first.tick == 200
     assert list(found.moved) == ["ActuatorTargets.steering_rad"]
     assert len(found.kept) == 100 + 400
-    curve = waveform(list(found.kept), "ActuatorTargets.steering_rad")
+    curve = waveform(both(list(found.kept)), "ActuatorTargets.steering_rad")
     assert sum(a != b for a, b in zip(curve.logged, curve.now, strict=True)) == 1

@@ -25,6 +25,8 @@ WIDTH_IN, PANEL_IN, HEAD_IN = 13.0, 1.55, 1.5
 PANELS = 6
 """Fields that are drawn, of those that moved most for what they are."""
 STATE = "Decision.state"
+Told = dict[str, list[tuple[float, object, object]]]
+"""By kind of message: when, what the tape says, and what the replay says."""
 
 
 class Waveform(NamedTuple):
@@ -38,13 +40,14 @@ class Waveform(NamedTuple):
 def draw(comparison: Comparison, title: str) -> Figure:
     """The whole picture of a comparison that has a difference."""
     ticks = _where_it_moved(comparison)
-    names = _most(comparison, ticks)
+    told = both(ticks)
+    names = _most(comparison, told)
     figure = new_figure(WIDTH_IN, HEAD_IN + PANEL_IN * len(names))
     heights = [0.45, *[1.0] * len(names)]
     band, *panels = figure.subplots(len(heights), sharex=True, height_ratios=heights, squeeze=False)
-    _draw_states(band[0], waveform(ticks, STATE))
+    _draw_states(band[0], waveform(told, STATE))
     for (axes,), name in zip(panels, names, strict=True):
-        _draw_field(axes, name, waveform(ticks, name))
+        _draw_field(axes, name, waveform(told, name))
     last = panels[-1][0] if panels else band[0]
     last.set_xlabel("simulated time [s]", color=INK, fontsize=9)
     last.set_xlim(ticks[0].time_ns * 1e-9, ticks[-1].time_ns * 1e-9)
@@ -52,25 +55,26 @@ def draw(comparison: Comparison, title: str) -> Figure:
     return figure
 
 
-def waveform(ticks: list[Tick], name: str) -> Waveform:
+def both(ticks: list[Tick]) -> Told:
+    """What tape and replay both say, by kind of message; one pass for all fields."""
+    told: Told = {}
+    for tick in ticks:
+        logged = {type(item.message): item.message for item in tick.logged}
+        for now in (*tick.outputs.reports, tick.outputs.targets):
+            if then := logged.get(type(now)):
+                told.setdefault(type(now).__name__, []).append((tick.time_ns * 1e-9, then, now))
+    return told
+
+
+def waveform(told: Told, name: str) -> Waveform:
     """A field, such as `Decision.speed_mps`, of all ticks in which both have it."""
     kind, _, attribute = name.partition(".")
-    found = [(t.time_ns * 1e-9, *pair) for t in ticks if (pair := _both(t, kind))]
+    found = told.get(kind, [])
     return Waveform(
         [time_s for time_s, _, _ in found],
         [getattr(message, attribute) for _, message, _ in found],
         [getattr(message, attribute) for _, _, message in found],
     )
-
-
-def _both(tick: Tick, kind: str) -> tuple[object, object] | None:
-    """The message of a kind on the tape and in the replay."""
-    logged = (item.message for item in tick.logged)
-    pair = [
-        next((m for m in messages if type(m).__name__ == kind), None)
-        for messages in (logged, (*tick.outputs.reports, tick.outputs.targets))
-    ]
-    return (pair[0], pair[1]) if pair[0] and pair[1] else None
 
 
 def _where_it_moved(comparison: Comparison) -> list[Tick]:
@@ -81,16 +85,16 @@ def _where_it_moved(comparison: Comparison) -> list[Tick]:
     return [tick for tick in kept if tick.time_ns * 1e-9 <= last_s + lead_s]
 
 
-def _most(comparison: Comparison, ticks: list[Tick]) -> list[str]:
+def _most(comparison: Comparison, told: Told) -> list[str]:
     """The fields of numbers that moved most, compared with how far they range."""
     moved = [(name, m) for name, m in comparison.moved.items() if m.most is not None]
-    return sorted((n for n, _ in moved), key=lambda n: -_share(comparison.moved[n], ticks, n))[
+    return sorted((n for n, _ in moved), key=lambda n: -_share(comparison.moved[n], told, n))[
         :PANELS
     ]
 
 
-def _share(moved: Moved, ticks: list[Tick], name: str) -> float:
-    logged = [np.max(np.abs(value), initial=0.0) for value in waveform(ticks, name).logged]
+def _share(moved: Moved, told: Told, name: str) -> float:
+    logged = [np.max(np.abs(value), initial=0.0) for value in waveform(told, name).logged]
     return (moved.most or 0.0) / (float(np.max(logged)) + 1e-12)
 
 
