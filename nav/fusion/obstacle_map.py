@@ -41,7 +41,7 @@ from nav.parameters.vehicle import Outline, VehicleParameters
 _NO_TOP_M = -1e6
 _TOP_SHARE = 0.5
 """By which a cell's top moves to the highest return of a tick."""
-_NONE = np.zeros(0)
+_NOWHERE = np.zeros(0, np.int64)
 _LONGEST_S = 0.3
 """Decay of one tick covers at most this time: one look after a gap proves no long absence."""
 
@@ -96,7 +96,7 @@ class ObstacleMap:
         self._sonar_arcs = _sonar_arcs(vehicle)
         self._sonar_min_m = vehicle.sonar.min_range_m
         self._footprint = _footprint(vehicle.outline, parameters.cell_m)
-        self._bare = np.zeros(0, np.int64)
+        self._bare = _NOWHERE
         """Cells in which a steep beam has met ground in this tick."""
         self._time_ns: int | None = None
         self._placed = False
@@ -236,15 +236,30 @@ class ObstacleMap:
         The first `steep` scans are those of scanners that look down. What they meet far away is
         ground where it continues what is known.
         """
-        p = self.parameters.ground
         beam = returns(scans, self.parameters.max_range_m)
         points = level_points(scans, beam)
+        ends = beam.searchsorted([k * scans.range_m.shape[1] for k in range(steep + 1)]).tolist()
+        obstacle = self._obstacles(points, pose, ends, expect)
+        hits = points.take(np.flatnonzero(obstacle), axis=1)
+        index, inside = self.lattice.index(hits[0], hits[1])
+        return index[inside], hits[:, inside]
+
+    def _obstacles(
+        self, points: Floats, pose: Pose, ends: list[int], expect: Expected | None
+    ) -> Bools:
+        """Which points (3, n) are obstacles, (n,).
+
+        The points of steep scans come first, each scan's up to its end. Ground among them is
+        learned, and their heights are corrected.
+        """
         x, y = points[0] - pose.x_m, points[1] - pose.y_m
         distance = np.sqrt(x * x + y * y)
-        ends = np.searchsorted(beam, [k * scans.range_m.shape[1] for k in range(steep + 1)])
-        heights = [points[2, start:end] for start, end in pairwise(ends.tolist())]
-        bump = np.concatenate([_NONE, *(bumps(height, p.bump_beams) for height in heights)])
-        first = slice(len(bump))  # the points of steep beams
+        self._bare, first = _NOWHERE, slice(ends[-1])
+        if ends[-1] == 0:
+            return self.ground.classify(points, distance)[0]
+        p = self.parameters.ground
+        heights = [points[2, start:end] for start, end in pairwise(ends)]
+        bump = np.concatenate([bumps(height, p.bump_beams) for height in heights])
         points[2, first] -= self.ground.too_high(x[first], y[first], distance[first])
         obstacle, ground, coarse = self.ground.classify(points, distance)
         stands_out = ground[first] & (bump > p.bump_m)
@@ -260,9 +275,7 @@ class ObstacleMap:
         # a steep beam's height is uncertain: what only such beams have seen (a bale) counts as so
         # low that a level beam, which passes over it, does not deny it
         points[2, first] -= p.tilt_rad * distance[first]
-        hits = points.take(np.flatnonzero(obstacle), axis=1)
-        index, inside = self.lattice.index(hits[0], hits[1])
-        return index[inside], hits[:, inside]
+        return obstacle
 
     def _teaches(self, place: Floats, distance_m: Floats, expect: Expected | None) -> Bools:
         """Which ends of steep beams (3, n) may teach the ground: near ones, and farther ones that
