@@ -1,6 +1,7 @@
 """A sampled plane curve, and the Catmull-Rom cubic (6.1), (6.4) through points."""
 
 from dataclasses import dataclass
+from functools import lru_cache
 from math import pi
 
 import numpy as np
@@ -33,6 +34,13 @@ def curve_through(points_m: Floats) -> Curve:
     Its ends are bent like their neighbourhood: a path that is made anew at every decision is
     followed by its first metre only.
     """
+    return _through(points_m.tobytes())
+
+
+@lru_cache(maxsize=1)
+def _through(points: bytes) -> Curve:
+    """Both controllers ask for it: the high-level one looks along it, the low-level one follows."""
+    points_m = np.frombuffer(points).reshape(-1, 2)
     position, tangent, second = catmull_rom(points_m, SAMPLES, bent=True)
     speed = np.maximum(np.hypot(tangent[:, 0], tangent[:, 1]), 1e-6)
     bend = (tangent[:, 0] * second[:, 1] - tangent[:, 1] * second[:, 0]) / speed**3

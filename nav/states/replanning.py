@@ -1,9 +1,12 @@
 """When a new local path is due: the left half of Fig. 6.4."""
 
+from functools import lru_cache
+
 from nav.messages import Floats
 from nav.parameters import Parameters
+from nav.parameters.planning import Footprint
 from nav.planning.curve import Curve, nearest_index
-from nav.planning.local_path import FIFTH, clear_distances
+from nav.planning.local_path import FIFTH, Clear, clear_distances
 from nav.states.memory import Memory
 from nav.states.situation import Situation
 
@@ -17,9 +20,8 @@ def due(s: Situation, memory: Memory, p: Parameters) -> str:
     here = _index(memory.curve, s.ego.position_m)
     if here >= _index(memory.curve, memory.pathpoint_m[FIFTH]):
         return "fifth pathpoint reached"
-    rest = _rest(memory.curve, here)
-    clear = clear_distances(rest, s.boundaries, p.planning.footprint)
-    return "path crosses an obstacle" if clear.real_m < rest.arc_m[-1] else ""
+    clear = _clear(s, memory.curve, p.planning.footprint)
+    return "path crosses an obstacle" if clear.real_m < clear.arc_m[-1] else ""
 
 
 def distance_ahead(s: Situation, memory: Memory, beyond_m: float, p: Parameters) -> float:
@@ -29,9 +31,16 @@ def distance_ahead(s: Situation, memory: Memory, beyond_m: float, p: Parameters)
     """
     if memory.curve is None:
         return beyond_m
-    rest = _rest(memory.curve, _index(memory.curve, s.ego.position_m))
-    clear = clear_distances(rest, s.boundaries, p.planning.footprint).touch_m
-    return clear if clear < rest.arc_m[-1] else beyond_m
+    clear = _clear(s, memory.curve, p.planning.footprint)
+    touch_m = clear.touch_m
+    return touch_m if touch_m < clear.arc_m[-1] else beyond_m
+
+
+@lru_cache(maxsize=1)
+def _clear(s: Situation, path: Curve, footprint: Footprint) -> Clear:
+    """How far the rest of a path is free; asked for twice where it stays in force."""
+    rest = _rest(path, _index(path, s.ego.position_m))
+    return clear_distances(rest, s.boundaries, footprint)
 
 
 def _index(curve: Curve, point_m: Floats) -> int:
