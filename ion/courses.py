@@ -1,5 +1,6 @@
 """From a scenario's name, or a route file, to what a seed draws of it."""
 
+import re
 from collections.abc import Mapping
 from dataclasses import dataclass
 from importlib import import_module
@@ -26,6 +27,8 @@ class Source:
     last: int = 0
     options: tuple[tuple[str, Any], ...] = ()
     """What the scenario was told beyond the seed: names and values."""
+    faults: tuple[str, ...] = ()
+    """What fails beyond the scenario's own, one line each."""
 
     @property
     def title(self) -> str:
@@ -35,21 +38,29 @@ class Source:
     @property
     def name(self) -> str:
         """For files: two drives of different options have different ones."""
-        return "_".join((self.title, *(str(value) for _, value in self.options)))
+        words = (*(str(value) for _, value in self.options), *self.faults)
+        return "_".join((self.title, *(re.sub(r"\W+", "_", word) for word in words)))
 
     @property
     def said(self) -> dict[str, str]:
         """All but the seed and the route's text, as short texts."""
+        said = {"faults": "; ".join(self.faults)} if self.faults else {}
         if self.scenario:
-            return {name: str(value) for name, value in self.options}
-        return {"from": str(self.first), "to": str(self.last)}
+            return said | {name: str(value) for name, value in self.options}
+        return said | {"from": str(self.first), "to": str(self.last)}
 
     def course(self, seed: int) -> "Course":
         """The course as `seed` draws it.
 
         Raises:
             NavError: the route cannot be driven.
+            ValueError: a line that is no fault.
         """
+        from scenarios.failing import failing
+
+        return failing(self._course(seed), self.faults)
+
+    def _course(self, seed: int) -> "Course":
         if self.scenario:
             course = import_module(f"scenarios.{self.scenario}.course")
             return course.build(seed, **dict(self.options))

@@ -1,7 +1,7 @@
 """The arguments of `ion drive`, as typed; and what they mean, checked."""
 
 import re
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 from tempfile import TemporaryFile
 from typing import Annotated, Literal
@@ -37,6 +37,8 @@ class Options:
     """One JSON object a line on standard output instead of a table."""
     ablate: Annotated[tuple[str, ...], arg(metavar="NAME...")] = ()
     """Drive without a sensor: blind, no-sonar, no-gps, no-imu, no-lidar-roof, ...; see docs."""
+    fault: Annotated[tuple[str, ...], arg(metavar="LINE...")] = ()
+    """Let devices fail: 'lidar_bumper silent 120s', 'gps offset by 5 800m-900m', ...; see docs."""
     log: Annotated[Log | None, arg(metavar="full|inputs|light|off")] = None
     """What goes on the tape: all; no /view/; no LIDAR scans; no tape. Default: full, and of many
     seeds the tapes of failures only."""
@@ -65,8 +67,9 @@ def job_of(options: Options) -> Job:
         UsageError: an option is wrong.
         NavError: the route file is wrong.
     """
-    source = _source(options)
+    source = replace(_source(options), faults=tuple(line.strip() for line in options.fault))
     _check_ablations(options.ablate, source)
+    _check_faults(source)
     if options.view and options.seeds is not None:
         raise UsageError("--view: expected one drive, --seed N, not --seeds")
     if options.jobs < 1:
@@ -122,6 +125,15 @@ def _check_ablations(names: tuple[str, ...], source: Source) -> None:
             disabled_sensors(names, vehicle.lidars, vehicle.radars)
         except ValueError as error:
             raise UsageError(str(error)) from error
+
+
+def _check_faults(source: Source) -> None:
+    """Draws a course, to know its vehicle, only where something is to fail."""
+    if source.faults:
+        try:
+            source.course(0)
+        except ValueError as error:
+            raise UsageError(f"--fault {error}") from error
 
 
 def check_folder(folder: Path) -> None:

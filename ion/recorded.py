@@ -45,7 +45,7 @@ class Recorded:
             words += [said["scenario"], *(f"--{k} {said[k]}" for k in _options(said))]
         else:
             words += [f"--route ROUTE --from {said['from']} --to {said['to']}"]
-        words += [f"--seed {said['seed']}"]
+        words += [f"--seed {said['seed']}", *(f"--fault '{line}'" for line in _faults(said))]
         return " ".join([*words, *([f"--ablate {said['ablate']}"] if said["ablate"] else [])])
 
     def course(self) -> "Course":
@@ -88,11 +88,15 @@ def recorded(log: Path) -> Recorded:
 
 
 def _source(said: dict[str, str], files: dict[str, str]) -> Source:
-    name = said["scenario"]
+    name, faults = said["scenario"], _faults(said)
     if name in scenario_names():
-        return Source(name, options=tuple(_options(said).items()))
+        return Source(name, options=tuple(_options(said).items()), faults=faults)
     route = next(iter(files))  # attached first
-    return Source("", files[route], route, int(said["from"]), int(said["to"]))
+    return Source("", files[route], route, int(said["from"]), int(said["to"]), faults=faults)
+
+
+def _faults(said: dict[str, str]) -> tuple[str, ...]:
+    return tuple(line for line in said.get("faults", "").split("; ") if line)
 
 
 def _options(said: dict[str, str]) -> dict[str, Any]:

@@ -32,6 +32,8 @@ class Scenario(msgspec.Struct, frozen=True):
     title: str
     course: str
     time_limit_s: float
+    faults: list[str] = []
+    """What fails, one line each; see `twin.faults.parse`."""
     options: dict[str, Option] = {}
     """By the names of `build`'s arguments beyond the seed."""
 

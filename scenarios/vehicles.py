@@ -6,10 +6,11 @@ from typing import Protocol
 
 from nav.messages import ActuatorTargets, SensorMessage
 from nav.parameters import ION
-from scenarios.ablation import LIDARS, RADARS
+from scenarios.ablation import LIDARS, OTHERS, RADARS
 from scenarios.verdicts.shapes import Outline
 from twin import pioneer
 from twin.dubins import DubinsSimulator, dubins_parameters
+from twin.faults import ACTUATORS
 from twin.simulator import Simulator
 from twin.truth import Truth
 from twin.world import World
@@ -49,6 +50,8 @@ class Vehicle:
     """The names of its scanners ..."""
     radars: tuple[str, ...] = RADARS
     """... and of its radars."""
+    devices: tuple[str, ...] = (*LIDARS, *RADARS, *OTHERS, "road_camera", *ACTUATORS)
+    """What of it can fail."""
 
 
 DUBINS = "dubins"
@@ -57,9 +60,10 @@ _DISC = Outline(0.0, 0.0, 0.0, dubins_parameters().drive.disc_radius_m)
 
 VEHICLES = {
     ION: Vehicle(Simulator, Outline()),
-    DUBINS: Vehicle(DubinsSimulator, _DISC, lidars=("lidar_field",), radars=()),
+    DUBINS: Vehicle(DubinsSimulator, _DISC, lidars=("lidar_field",), radars=(), devices=()),
     "pioneer": Vehicle(
-        pioneer.simulator, Outline(0.254, -0.254, 0.2485), 0.46, ("lidar_deck",), radars=()
+        pioneer.simulator, Outline(0.254, -0.254, 0.2485), 0.46, ("lidar_deck",), radars=(),
+        devices=("lidar_deck", *OTHERS),
     ),
 }
 """By the name that a course gives, which is also that of the navigator's parameter file."""

@@ -1,6 +1,8 @@
 """What all tests share: the processor's settings, made before numpy loads, as the command does; and
 the tape of a short drive."""
 
+from pathlib import Path
+
 import pytest
 
 from scenarios.processor import fix_processor
@@ -23,3 +25,12 @@ def short_tape(tmp_path_factory):
 
     job = Job(scenario_source("dead_end"), tmp_path_factory.mktemp("short"))
     return job.drive(0, [stop])["log"]
+
+
+@pytest.fixture(scope="session")
+def avoids_s(short_tape):
+    """When Obstacle Avoidance begins on it, [s]."""
+    from ion.recorded import recorded
+
+    events = recorded(Path(short_tape)).events
+    return next(event.time_s for event in events if "obstacle avoidance" in event.text)

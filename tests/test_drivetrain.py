@@ -6,55 +6,12 @@ from twin.clock import STEP_S
 from twin.drivetrain import (
     DrivetrainParameters,
     Engine,
-    Gearbox,
-    GearboxParameters,
     friction_torques,
     tractive_force,
     wheel_torques,
 )
 
 P = DrivetrainParameters()
-
-
-def gearbox(gear, **parameters):
-    return Gearbox(GearboxParameters(**parameters), np.random.default_rng(0), gear)
-
-
-def walk(box, target, limit_s=70.0):
-    """Positions on the way and seconds until the linkage rests in `target`."""
-    seen, steps = [box.gear], 0
-    while (box.gear != target or box.shifting) and steps * STEP_S < limit_s:
-        box.step(target, 0.0, STEP_S)
-        steps += 1
-        if box.gear != seen[-1]:
-            seen.append(box.gear)
-    return seen, steps * STEP_S
-
-
-def test_linkage_walks_through_every_position():
-    seen, _ = walk(gearbox(Gear.HIGH), Gear.REVERSE)
-    assert seen == [Gear.HIGH, Gear.LOW, Gear.NEUTRAL, Gear.REVERSE]
-
-
-def test_shift_takes_the_time_of_its_distribution():
-    _, exact_s = walk(gearbox(Gear.HIGH, shift_s_per_position=1.5, shift_sigma=0.0), Gear.REVERSE)
-    assert exact_s == pytest.approx(4.5, abs=5 * STEP_S)
-    _, longest_s = walk(gearbox(Gear.HIGH, shift_s_per_position=500.0), Gear.REVERSE)
-    assert longest_s == pytest.approx(60.0, abs=5 * STEP_S)
-
-
-def test_median_of_a_position():
-    box = gearbox(Gear.LOW)
-    times = [walk(box, target)[1] for _ in range(100) for target in (Gear.HIGH, Gear.LOW)]
-    assert np.median(times) == pytest.approx(2.0, rel=0.1)
-    assert np.std(np.log(times)) == pytest.approx(0.4, rel=0.15)
-
-
-def test_no_shift_while_rolling():
-    box = gearbox(Gear.HIGH)
-    for _ in range(3000):
-        box.step(Gear.LOW, 1.0, STEP_S)
-    assert (box.gear, box.shifting) == (Gear.HIGH, False)
 
 
 def test_top_speed_stands_where_the_limiter_is():

@@ -9,7 +9,7 @@ import pytest
 import models
 from nav.messages import ActuatorTargets, Gear
 from twin import clock
-from twin.drivetrain import GearboxParameters
+from twin.linkage import GearboxParameters
 from twin.plant import Plant
 from twin.vehicle import PIVOT_M, SIDES, STEERING_LIMIT_RAD, linkage
 
@@ -185,10 +185,10 @@ def test_stands_in_gear_with_the_throttle_closed():
 
 
 def test_reverse_after_the_shift():
-    p = plant(gearbox=GearboxParameters(shift_s_per_position=0.5, shift_sigma=0.0))
+    p = plant(gearbox=GearboxParameters(shift_s_per_position=0.7, shift_sigma=0.0, try_again=0.0))
     drive(p, 1.2, gear=Gear.REVERSE, brake=0.5)
     assert p.applied.shifting
-    drive(p, 0.6, gear=Gear.REVERSE, brake=0.5)
+    drive(p, 1.2, gear=Gear.REVERSE, brake=0.5)
     assert (p.applied.gear, p.applied.shifting) == (Gear.REVERSE, False)
     drive(p, 3.0, gear=Gear.REVERSE, throttle=0.4)
     assert p.speed_mps < -1.0

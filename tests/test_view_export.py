@@ -55,10 +55,10 @@ def test_it_plays(page):
     picture(page, "exported", SCENE)
 
 
-def test_an_event_is_gone_to_and_back(page):
+def test_an_event_is_gone_to_and_back(page, avoids_s):
     page.locator("#ion li", has_text="obstacle avoidance").click()
-    until(page, lambda at_s: at_s == pytest.approx(14.2, abs=0.11))
-    page.get_by_text("Obstacle Avoidance since 14.2 s").wait_for()
+    until(page, lambda at_s: at_s == pytest.approx(avoids_s, abs=0.11))
+    page.get_by_text(f"Obstacle Avoidance since {avoids_s:.1f} s").wait_for()
     late = picture(page, "exported_late", SCENE)
     page.locator("#ion li").first.click()
     until(page, lambda at_s: at_s < 3.0)

@@ -92,10 +92,10 @@ def test_scene_is_drawn(page):
     raise AssertionError("the scene stays empty: see runs/screens/start.png")
 
 
-def test_scrubbing_shows_that_moment(page):
+def test_scrubbing_shows_that_moment(page, avoids_s):
     before = picture(page, "before")
     scrub(page, 16)
-    shows(page, "Obstacle Avoidance since 14.2 s")
+    shows(page, f"Obstacle Avoidance since {avoids_s:.1f} s")
     page.wait_for_timeout(1000)
     assert np.abs(picture(page, "scrubbed") - before).mean() > 0.01
 
@@ -109,13 +109,13 @@ def test_playing_moves_time(page):
     assert 6.0 < time_s(page) < 17.1
 
 
-def test_next_event_is_where_it_happened(page):
+def test_next_event_is_where_it_happened(page, avoids_s):
     scrub(page, 5)
     press(page, "event", "next")
-    shows(page, "14.2 s: obstacle avoidance: obstacle on the smooth path")
-    until(page, lambda at_s: at_s == pytest.approx(14.2))
+    shows(page, f"{avoids_s:.1f} s: obstacle avoidance: obstacle on the smooth path")
+    until(page, lambda at_s: at_s == pytest.approx(avoids_s))
     press(page, "decision", "forward")
-    until(page, lambda at_s: at_s == pytest.approx(14.3))
+    until(page, lambda at_s: at_s == pytest.approx(avoids_s + 0.1))
 
 
 def test_cameras_show_different_pictures(page):

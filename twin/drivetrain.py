@@ -1,4 +1,4 @@
-"""Engine, CVT, gearbox and brakes: from pedal positions to torques at the wheels.
+"""Engine, CVT and brakes: from pedal positions to torques at the wheels.
 
 Plain floats and small functions: all of it runs 300 times a simulated second.
 Numbers with unit, source and grade: models/README.md.
@@ -7,9 +7,6 @@ Numbers with unit, source and grade: models/README.md.
 from dataclasses import dataclass
 from math import exp
 
-import numpy as np
-
-from nav.messages import Gear
 from twin.vehicle import WHEEL_RADIUS_M
 
 
@@ -110,54 +107,3 @@ def wheel_torques(
 def friction_torques(parameters: DrivetrainParameters, brake: float) -> list[float]:
     """Dry friction at each wheel [N m]: rolling resistance and brake."""
     return [parameters.rolling_n_m + brake * b for b in parameters.brake_n_m]
-
-
-@dataclass(frozen=True)
-class GearboxParameters:
-    """How long the linkage takes from one position to the next: log-normal, cut off."""
-
-    shift_s_per_position: float = 2.0
-    """Median."""
-    shift_sigma: float = 0.4
-    """Standard deviation of the logarithm."""
-    shift_limit_s: float = 20.0
-    """Longest: R to H, three positions, in the paper's "up to one minute"."""
-    rolling_mps: float = 0.3
-    """The linkage does not leave a position while the vehicle is faster than this."""
-
-
-class Gearbox:
-    """A linkage R-N-L-H that a slow motor walks from position to position."""
-
-    def __init__(self, parameters: GearboxParameters, rng: np.random.Generator, gear: Gear) -> None:
-        self.parameters = parameters
-        self.gear = gear
-        self.shifting = False
-        self._rng = rng
-        self._left_s = 0.0
-        self._next = gear
-
-    def step(self, target: Gear, speed_mps: float, dt_s: float) -> None:
-        """Advance by `dt_s` towards `target`; refuse to leave a position while rolling."""
-        if self.shifting:
-            self._walk(dt_s)
-        if not self.shifting and target != self.gear:
-            self._leave(target, speed_mps)
-
-    def _leave(self, target: Gear, speed_mps: float) -> None:
-        if abs(speed_mps) > self.parameters.rolling_mps:
-            return
-        self._next = Gear(self.gear + (1 if target > self.gear else -1))
-        self._left_s = self._duration_s()
-        self.shifting = True
-
-    def _walk(self, dt_s: float) -> None:
-        self._left_s -= dt_s
-        if self._left_s <= 0.0:
-            self.gear = self._next
-            self.shifting = False
-
-    def _duration_s(self) -> float:
-        p = self.parameters
-        drawn = p.shift_s_per_position * exp(p.shift_sigma * self._rng.standard_normal())
-        return min(drawn, p.shift_limit_s)

@@ -11,14 +11,9 @@ from twin import clock, tire_collision
 from twin.body import CONTROL_S, Body, Start
 from twin.brush import Brush, resisted
 from twin.drive_by_wire import DriveByWire, DriveByWireParameters
-from twin.drivetrain import (
-    DrivetrainParameters,
-    Engine,
-    Gearbox,
-    GearboxParameters,
-    friction_torques,
-    wheel_torques,
-)
+from twin.drivetrain import DrivetrainParameters, Engine, friction_torques, wheel_torques
+from twin.faults import Faults
+from twin.linkage import Gearbox, GearboxParameters
 from twin.truth import Applied
 from twin.vehicle import WHEELS, ackermann, actuators, linkage, tire_contact, tire_geoms
 
@@ -63,6 +58,10 @@ class Plant(Body):
         """What grows where the vehicle drives."""
         self._brake = -1.0
         self._level = -1
+
+    def fail(self, faults: Faults) -> None:
+        """Let what fails among the actuators fail."""
+        self._shim.faults = faults
 
     @property
     def applied(self) -> Applied:

@@ -11,6 +11,7 @@ from nav.messages import ActuatorTargets, SensorMessage
 from twin import assembly, clock
 from twin.body import Body, Start
 from twin.brush import Brush
+from twin.faults import Faults
 from twin.plant import Plant
 from twin.sensors.parameters import SensorParameters, sensor_parameters
 from twin.sensors.sight import Sight
@@ -21,6 +22,7 @@ from twin.world import World
 
 TICK_STEPS = 6
 """Physics steps in one navigator tick of 20 ms."""
+TICK_S = TICK_STEPS * clock.STEP_S
 
 
 class Kind(NamedTuple):
@@ -55,7 +57,12 @@ class Simulator:
         self.plant = kind.plant(model, (x, y, ground, heading), seed, assembly.owners(world))
         if isinstance(self.plant, Plant) and any(o.kind == "brush" for o in world.obstacles):
             self.plant.brush = Brush(world.obstacles)
-        self.sensors = SensorSuite(world, self.sight, seed, disabled, kind.sensors())
+        self.faults = Faults(world.faults, seed)
+        if isinstance(self.plant, Plant):
+            self.plant.fail(self.faults)
+        self.sensors = SensorSuite(
+            world, self.sight, seed, disabled, kind.sensors(), self.faults
+        )
 
     @property
     def time_ns(self) -> int:
@@ -69,12 +76,13 @@ class Simulator:
         for _ in range(TICK_STEPS):
             self.plant.step()
             delivered += self.sensors.poll(self.plant)
+        self.faults.way_m += abs(self.plant.speed_mps) * TICK_S
         self._follow()
         return delivered
 
     def reset(self, sensor: str) -> None:
         """The navigator resets a sensor."""
-        self.sensors.faults.reset(self.time_ns, sensor)
+        self.faults.reset(self.time_ns, sensor)
 
     def truth(self) -> Truth:
         """The true state, for judges and pictures only."""

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from math import isfinite
 
 from nav.messages import ActuatorTargets, Gear
-from twin.drive_by_wire import Delay, clip, towards
+from twin.servo import Delay, clip, towards
 from twin.truth import Applied
 
 DIRECTION = {Gear.REVERSE: -1.0, Gear.NEUTRAL: 0.0, Gear.LOW: 1.0, Gear.HIGH: 1.0}
@@ -55,7 +55,7 @@ class SkidSteer:
         self._alive_until_ns = 0
         self.speed_mps = 0.0
         """That the sides shall have in the middle."""
-        self.applied = Applied(0.0, 0.0, 1.0, int(Gear.HIGH), False)
+        self.applied = Applied(0.0, 0.0, 1.0, int(Gear.HIGH), False, float(Gear.HIGH))
 
     def apply(self, time_ns: int, targets: ActuatorTargets) -> None:
         """Put the targets into force at `time_ns`; what is not a number counts as not arrived."""
@@ -77,7 +77,7 @@ class SkidSteer:
         rate = self.parameters.steering_rate_radps * self._dt_s
         steering = towards(self.applied.steering_rad, self._steering.get(time_ns), rate)
         throttle, brake = self._throttle.get(time_ns), self._brake.get(time_ns)
-        self.applied = Applied(steering, throttle, brake, int(self._gear), False)
+        self.applied = Applied(steering, throttle, brake, int(self._gear), False, float(self._gear))
         self._hasten(throttle, brake)
         return self._sides(steering)
 

@@ -35,4 +35,7 @@ class Applied(NamedTuple):
     throttle: float
     brake: float
     gear: int
+    """Of the linkage: the position that it left last, or is at."""
     shifting: bool
+    linkage: float
+    """Where the linkage's potentiometer stands: 0 is R, 3 is H."""

@@ -45,7 +45,7 @@ def known(why: Explanation) -> str:
     """How well the ego state is known, one sigma, and which sensors do not help."""
     s, ego = why.situation, why.situation.ego
     helpless = [f"{name} refused for {seconds:.1f} s" for name, seconds in why.refused_s.items()]
-    helpless += [f"{name} silent" for name in (*s.health.failed, *s.health.lost)]
+    helpless += [f"{name} failed" for name in (*s.health.failed, *s.health.lost)]
     return "; ".join([
         f"±{ego.position_sd_m:.2f} m an axis, ±{degrees(ego.heading_sd_rad):.1f}°",
         f"the last fix {s.gps_lost_s:.1f} s ago", *helpless,

@@ -11,6 +11,7 @@ import numpy as np
 
 from nav.route import rddf
 from scenarios.course import Course, Floats, Gate, route_points_m
+from scenarios.failing import failing
 from scenarios.geometry import Leg as Line
 from scenarios.nqe import track
 from scenarios.nqe.layout import Layout, Thing, load_layout
@@ -57,7 +58,7 @@ def build(seed: int) -> Course:
         start=_start(seed, lines[0]),
         satellites=np.radians(layout.satellites),
     )
-    return Course(
+    course = Course(
         name="nqe",
         title=scenario.title,
         seed=seed,
@@ -71,6 +72,7 @@ def build(seed: int) -> Course:
         gates=tuple(built.gates),
         tunnel_center_line_m=built.tunnel_axis_m,
     )
+    return failing(course, scenario.faults)
 
 
 def _datum(seed: int) -> track.Datum:

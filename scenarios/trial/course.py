@@ -8,6 +8,7 @@ import numpy as np
 
 from nav.route import rddf
 from scenarios.course import FOOT_M, Course, route_points_m
+from scenarios.failing import failing
 from scenarios.geometry import Pose
 from scenarios.route.course import SKY
 from scenarios.things import Site, generator
@@ -44,10 +45,9 @@ def _course(name: str, trial: Trial, seed: int) -> Course:
         anchor=ANCHOR_DEG,
         start=_start(trial),
         satellites=SKY,
-        faults=tuple(trial.faults),
         road=_road(trial),
     )
-    return Course(
+    course = Course(
         name=name,
         title=trial.title,
         seed=seed,
@@ -60,6 +60,7 @@ def _course(name: str, trial: Trial, seed: int) -> Course:
         time_limit_s=trial.time_limit_s,
         stuck_s=trial.stuck_s,
     )
+    return failing(course, trial.faults)
 
 
 def _rddf(trial: Trial) -> str:

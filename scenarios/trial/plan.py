@@ -6,7 +6,6 @@ from typing import Literal
 import msgspec
 
 from scenarios.things import SUNK_M
-from twin.faults import Fault
 
 Point = tuple[float, float]
 
@@ -82,7 +81,8 @@ class Trial(_Strict, frozen=True):
     things: list[Thing] = []
     holes: list[Hole] = []
     edges: list[Edge] = []
-    faults: list[Fault] = []
+    faults: list[str] = []
+    """See `twin.faults.parse`."""
     road: RoadPlan | None = None
 
 

@@ -12,7 +12,7 @@ from twin.dubins.kinematics import State, advance, limited
 from twin.dubins.parameters import DriveParameters
 from twin.truth import Applied
 
-PARKED = Applied(0.0, 0.0, 1.0, int(Gear.HIGH), False)
+PARKED = Applied(0.0, 0.0, 1.0, int(Gear.HIGH), False, float(Gear.HIGH))
 DIRECTION: dict[int, float] = {Gear.REVERSE: -1.0, Gear.NEUTRAL: 0.0, Gear.LOW: 1.0, Gear.HIGH: 1.0}
 """Of the drive; a linkage on its way is in neutral."""
 
@@ -42,7 +42,7 @@ class IdealDrive:
         throttle = 0.0 if brake > 0.0 else min(max(targets.throttle, 0.0), 1.0)
         on_its_way = time_ns < self._shifted_ns
         gear = int(Gear.NEUTRAL if on_its_way else self._wanted)
-        self.applied = Applied(steering, throttle, brake, gear, on_its_way)
+        self.applied = Applied(steering, throttle, brake, gear, on_its_way, float(gear))
 
     def step(self, time_ns: int, state: State, dt_s: float) -> State:
         """The state `dt_s` later; the tick begins at `time_ns`."""

@@ -128,7 +128,14 @@ class OdometryParameters(Timing, frozen=True):
     noise_sd_mps: float
     steering_bias_sd_rad: float
     steering_noise_rad: float
+    steering_count_rad: float
+    """Of the converter behind the potentiometer."""
     pedal_noise: float
+    pedal_count: float
+    linkage_noise: float
+    """In positions of the linkage ..."""
+    linkage_window: float
+    """... and how near to one the linkage must be for the gear to be in."""
 
 
 class RoadCameraParameters(Timing, frozen=True):

@@ -33,8 +33,9 @@ class SensorSuite:
         seed: int,
         disabled: frozenset[str] = frozenset(),
         parameters: SensorParameters | None = None,
+        faults: Faults | None = None,
     ) -> None:
-        """Build what is not disabled.
+        """Build what is not disabled; `faults` are those of the world by default.
 
         Raises:
             ValueError: a disabled name that is no sensor's; the message lists those that exist.
@@ -46,7 +47,7 @@ class SensorSuite:
         self._cycle = lcm(*(sensor.schedule.period for sensor in sensors))
         kept = [(i, s) for i, s in enumerate(sensors) if s.name not in disabled]
         self._due = [[p for p in kept if p[1].schedule.due(k)] for k in range(self._cycle)]
-        self.faults = Faults(world.faults)
+        self.faults = Faults(world.faults, seed) if faults is None else faults
         self._queue: list[tuple[int, int, int, SensorMessage]] = []
 
     def poll(self, view: View) -> list[SensorMessage]:
@@ -55,12 +56,22 @@ class SensorSuite:
         for order, sensor in self._due[k % self._cycle]:
             now = clock.time_ns(k)
             message = sensor.measure(view, now)
-            if not self.faults.silent(now, sensor.name):
+            if self.faults:
+                self._fail(k, order, sensor, message)
+            else:
                 heappush(self._queue, (k + sensor.schedule.delay, order, k, message))
         delivered: list[SensorMessage] = []
         while self._queue and self._queue[0][0] <= k:
             delivered.append(heappop(self._queue)[3])
         return delivered
+
+    def _fail(self, k: int, order: int, sensor: Sensor, message: SensorMessage) -> None:
+        """Let be heard what a sensor's faults leave of its message."""
+        now = clock.time_ns(k)
+        said = self.faults.heard(now, sensor.name, message)
+        if said is not None:
+            late = round(self.faults.late_s(now, sensor.name) * clock.STEPS_PER_SECOND)
+            heappush(self._queue, (k + sensor.schedule.delay + late, order, k, said))
 
 
 def _sensors(world: World, sight: Sight, seed: int, p: SensorParameters) -> list[Sensor]:
