@@ -11,6 +11,7 @@ from nav.fusion.confirmation import confirmed_m
 from nav.fusion.ego_state import EgoState
 from nav.fusion.health import HealthMonitor
 from nav.fusion.obstacle_map import ObstacleMap
+from nav.fusion.plausibility import Plausibility
 from nav.fusion.radar import Echoes, echoes
 from nav.fusion.scan_geometry import Sweep
 from nav.high_level import HighLevelController, Senses
@@ -68,7 +69,9 @@ class IonNavigator:
         self._ready_ns: int | None = None
         health = parameters.states.health
         sensors = (*parameters.vehicle.lidar_mounts, *health.devices)
-        self.health = HealthMonitor(health, sensors, tuple(parameters.vehicle.radars))
+        self.plausibility = Plausibility(parameters.plausibility)
+        scanners, radars = parameters.vehicle.lidar_mounts, parameters.vehicle.radars
+        self.health = HealthMonitor(health, sensors, tuple(radars), tuple(scanners))
 
     @property
     def state(self) -> str:
@@ -86,7 +89,8 @@ class IonNavigator:
         While the clock is behind what it has been, nothing is known of now, and the vehicle stands.
         """
         for message in self.admission.admit(time_ns, messages):
-            self._take(message)
+            if self.plausibility.believes(message, self.ego):
+                self._take(message)
         ego = self.ego.estimate(time_ns) if time_ns >= self.admission.now_ns else None
         self.calls += 1
         reports = self._decide(time_ns, ego) if ego and self.calls % HIGH_LEVEL_EVERY == 0 else ()
@@ -129,7 +133,9 @@ class IonNavigator:
             gps_lost_s=self.ego.gps_lost_s(time_ns),
             sonar_m=sonar,
             vehicle=self._vehicle,
-            health=self.health.check(time_ns, self.admission.newest_ns),
+            health=self.health.check(
+                time_ns, self.admission.newest_ns, self.plausibility.doubted
+            ),
             road=self._road if self._road and _is_fresh(self._road.time_ns, time_ns) else None,
             confirmed_m=self._confirmed_m(ego, sonar),
         )

@@ -168,7 +168,7 @@ def test_the_health_of_the_ego_state_is_told():
     navigator.ego.filter.refused_since_ns["gps position"] = now_ns - 1_500_000_000
     why = explanation_of(navigator)
     why = replace(why, situation=replace(why.situation, health=Health(("lidar_bumper",))))
-    assert known(why).endswith("gps position refused for 1.5 s; lidar_bumper silent")
+    assert known(why).endswith("gps position refused for 1.5 s; lidar_bumper failed")
     found = numbers_of(why)
     assert found["refused_s"] == {"gps position": 1.5}
     assert found["sensors_failed"] == ["lidar_bumper"]

@@ -18,7 +18,16 @@ from arbitrary import KINDS, LAGS_NS, lags_ns, messages, numbers
 from hypothesis import Phase, given, settings
 from hypothesis import strategies as st
 
-from nav.messages import EgoEstimate, Floats, Gear, GpsFix, LidarScan, Outputs, SensorMessage
+from nav.messages import (
+    EgoEstimate,
+    Floats,
+    Gear,
+    GpsFix,
+    GpsQuality,
+    LidarScan,
+    Outputs,
+    SensorMessage,
+)
 from nav.navigator import IonNavigator
 from nav.parameters import parameters_from
 from nav.planning.boundaries import REAL, TOUCH
@@ -172,14 +181,33 @@ def moved(fix: GpsFix, place_deg: tuple[float, float], sd_m: float) -> GpsFix:
     "place_deg", [(34.045, -117.6), (34.05, -117.61), (0.0, 0.0), (89.9, 90.0), (-89.9, 179.0)]
 )
 @pytest.mark.parametrize("sd_m", [0.1, 0.0, -5.0])
-def test_a_gps_that_insists_on_another_place_is_believed_and_breaks_nothing(place_deg, sd_m):
-    """Half a kilometre aside, one behind the start, where no place is set, the poles."""
+def test_a_gps_that_insists_on_another_place_breaks_nothing(place_deg, sd_m):
+    """Half a kilometre aside, one behind the start, where no place is set, the poles. Who never
+    lost its satellites does not jump: it is not believed, and the vehicle stands."""
+    navigator = insisted(place_deg, sd_m, outage_ticks=0)
+    assert navigator.state == "alarm"
+    assert np.abs(navigator.ego.estimate(navigator.admission.now_ns).position_m).max() < 100.0
+
+
+def test_a_gps_that_is_elsewhere_after_an_outage_is_believed():
+    navigator = insisted((34.045, -117.6), 0.1, outage_ticks=10)
+    assert np.abs(navigator.ego.estimate(navigator.admission.now_ns).position_m).max() > 400.0
+
+
+def insisted(place_deg, sd_m, outage_ticks):
+    """The navigator after a stretch of the drive with all fixes elsewhere, the first without."""
     navigator, start = pickle.loads(drive().navigator[790]), 790
-    for now_ns, sensed in drive().given[start : start + TICKS]:
+    for tick, (now_ns, sensed) in enumerate(drive().given[start : start + TICKS]):
         there = [moved(m, place_deg, sd_m) if isinstance(m, GpsFix) else m for m in sensed]
-        outputs = navigator.step(now_ns, there)
-        assert_sound(outputs, navigator)
-    assert np.abs(navigator.ego.estimate(now_ns).position_m).max() > 400.0
+        if tick < outage_ticks:
+            there = [gone(m) if isinstance(m, GpsFix) else m for m in sensed]
+        assert_sound(navigator.step(now_ns, there), navigator)
+    return navigator
+
+
+def gone(fix: GpsFix) -> GpsFix:
+    """The same without a solution."""
+    return replace(fix, quality=GpsQuality.NONE)
 
 
 @pytest.mark.parametrize("lag_ns", [lag for lag in LAGS_NS if lag < -5_000_000])

@@ -154,6 +154,32 @@ class EgoState:
         x, y = x + way * math.cos(middle), y + way * math.sin(middle)
         return Pose(x, y, wrapped(heading + turn), attitude.roll_rad, attitude.pitch_rad)
 
+    @property
+    def speed_mps(self) -> float:
+        """Signed, forward positive."""
+        return float(self.filter.state[SPEED])
+
+    def antenna_gap_m(self, fix: GpsFix) -> tuple[float, float]:
+        """How far a fix is from where the antenna is believed to be, and the standard deviation of
+        that belief, [m]."""
+        attitude = self._attitudes.at(fix.time_ns)
+        pose = self._pose(fix.time_ns, attitude)
+        forward, left = level(self.vehicle.gps_position_m, attitude)
+        c, s = math.cos(pose.heading_rad), math.sin(pose.heading_rad)
+        x, y = self.frame.point(fix.latitude_deg, fix.longitude_deg)
+        gap = x - pose.x_m - c * forward + s * left, y - pose.y_m - s * forward - c * left
+        P = self.filter.covariance
+        return math.hypot(*gap), math.sqrt(0.5 * float(P[0, 0] + P[Y, Y]))
+
+    def compass_gap_rad(self, heading_rad: float) -> float:
+        """How far a compass is from what is expected of it, [rad]."""
+        expected = float(self.filter.state[HEADING]) + float(self.filter.state[COMPASS_BIAS])
+        return wrapped(heading_rad - expected)
+
+    def yaw_rate_of(self, steering_rad: float) -> float:
+        """The yaw rate that a steering angle gives at the present speed, [rad/s]."""
+        return self.speed_mps * curvature(steering_rad, self.vehicle.steering)
+
     def gps_lost_s(self, time_ns: int) -> float:
         """Time since the last fix [s]; before any, since the first message of all."""
         since = self._last.fix.time_ns if self._last.fix else self._first_ns
@@ -221,8 +247,7 @@ class EgoState:
             self._last.accelerate(state.time_ns, float(self.filter.state[SPEED]))
 
     def _drive_by_steering(self, time_ns: int, steering_rad: float) -> None:
-        speed = float(self.filter.state[SPEED])
-        rate = speed * curvature(steering_rad, self.vehicle.steering)
+        speed, rate = self.speed_mps, self.yaw_rate_of(steering_rad)
         yaw_q = (self.parameters.motion.steering_per_m * speed) ** 2
         self._last.attitude = Attitude(rate_radps=(0.0, 0.0, rate))
         self._attitudes.add(time_ns, self._last.attitude)

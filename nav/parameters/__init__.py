@@ -14,6 +14,7 @@ from nav.parameters.fuzzy import SpeedParameters, SteeringParameters
 from nav.parameters.loader import ParameterError, from_table, from_toml, merged, table_of
 from nav.parameters.obstacle_map import ObstacleMapParameters
 from nav.parameters.planning import PlanningParameters
+from nav.parameters.plausibility import PlausibilityParameters
 from nav.parameters.states import StateParameters
 from nav.parameters.vehicle import VehicleParameters
 
@@ -29,6 +30,7 @@ class Parameters:
 
     vehicle: VehicleParameters
     ego_state: EgoParameters
+    plausibility: PlausibilityParameters
     obstacle_map: ObstacleMapParameters
     planning: PlanningParameters
     steering: SteeringParameters

@@ -31,6 +31,14 @@ class HealthParameters:
     """Silent for longer than this."""
     patience_s: float
     """Failed for longer than this, it is given up."""
+    vital: tuple[str, ...]
+    """Without these the vehicle stands until they are back."""
+    often: int
+    """Failed so many times ..."""
+    often_s: float
+    """... within this, it is given up at once ..."""
+    steady_s: float
+    """... until it has been good for so long."""
 
 
 @dataclass(frozen=True)

@@ -87,9 +87,11 @@ def out_of_tunnel(s: Situation, memory: Memory, p: Parameters) -> str:
 
 
 def sensor_failed(s: Situation, memory: Memory, p: Parameters) -> str:
-    """A sensor is silent that should speak."""
+    """A sensor has failed that should speak, and speak the truth."""
     del memory, p
-    return f"{' and '.join(s.health.failed)} silent" if s.health.failed else ""
+    if s.health.failed:
+        return f"{' and '.join(s.health.failed)} failed"
+    return f"without {s.health.unfit}" if s.health.unfit else ""
 
 
 def sensor_recovered(s: Situation, memory: Memory, p: Parameters) -> str:
@@ -99,9 +101,10 @@ def sensor_recovered(s: Situation, memory: Memory, p: Parameters) -> str:
 
 
 def sensor_lost(s: Situation, memory: Memory, p: Parameters) -> str:
-    """What has failed is given up: the flag lowers the speed limit."""
+    """What has failed is given up: the flag lowers the speed limit. Some it cannot do without."""
     del memory, p
-    return f"without {' and '.join(s.health.lost)}" if not s.health.failed else ""
+    stays = s.health.failed or s.health.unfit
+    return "" if stays else f"without {' and '.join(s.health.lost)}"
 
 
 # ---------------------------------------------------------------- the road

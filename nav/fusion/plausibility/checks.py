@@ -1,0 +1,162 @@
+"""One check for each kind of device but the scanners: why its message is implausible, or nothing;
+None where there is nothing to hold it against."""
+
+from dataclasses import dataclass
+from math import hypot
+
+import numpy as np
+
+from nav.fusion.plausibility.witnesses import Ego, Witnesses
+from nav.messages import (
+    CompassHeading,
+    Floats,
+    GpsFix,
+    GpsQuality,
+    ImuSample,
+    RadarTracks,
+    SonarScan,
+    VehicleState,
+)
+from nav.parameters.plausibility import PlausibilityParameters
+
+STEADY_S = 0.5
+FROZEN = "frozen"
+
+
+@dataclass
+class Repeats:
+    """Whether a device says the same again."""
+
+    said: bytes = b""
+
+    def again(self, *numbers: float | Floats) -> bool:
+        """Take what it says now."""
+        before, self.said = self.said, b"".join(np.asarray(n).tobytes() for n in numbers)
+        return before == self.said
+
+
+@dataclass
+class Fixes:
+    """GPS against dead reckoning: what has never lost its satellites does not jump."""
+
+    parameters: PlausibilityParameters
+    repeats: Repeats
+    outage_ns: int | None = None
+    """When it was without a solution last."""
+
+    def wrong(self, fix: GpsFix, ego: Ego, others: Witnesses) -> str | None:
+        """See the module."""
+        del others
+        p = self.parameters
+        if fix.quality is GpsQuality.NONE or self.outage_ns is None:
+            self.outage_ns = fix.time_ns
+        if fix.quality is GpsQuality.NONE:
+            return None
+        if self.repeats.again(fix.latitude_deg, fix.longitude_deg):
+            return FROZEN
+        if not ego.ready or fix.time_ns - self.outage_ns < p.gps_outage_s * 1e9:
+            return ""
+        gap_m, sd_m = ego.antenna_gap_m(fix)
+        far = gap_m > p.gps_m + p.gps_sd * (sd_m + fix.sd_m)
+        return f"{gap_m:.1f} m from dead reckoning" if far else ""
+
+
+@dataclass
+class Gyro:
+    """Yaw rates against themselves, and against what wheels and steering do."""
+
+    parameters: PlausibilityParameters
+    repeats: Repeats
+    yaw_radps: float | None = None
+    steering_rad: float = 0.0
+    """Smoothed."""
+
+    def wrong(self, sample: ImuSample, ego: Ego, others: Witnesses) -> str | None:
+        """See the module."""
+        p, (*_, yaw) = self.parameters, sample.angular_rate_radps.tolist()
+        before, self.yaw_radps = self.yaw_radps, yaw
+        if self.repeats.again(sample.angular_rate_radps):
+            return FROZEN
+        if before is not None and abs(yaw - before) > p.gyro_step_radps:
+            return "noisy"
+        state = others.state_at(sample.time_ns)
+        return self._beside(yaw, state, ego) if state and ego.ready else ""
+
+    def _beside(self, yaw: float, state: VehicleState, ego: Ego) -> str:
+        p, steering = self.parameters, state.steering_rad
+        turning = abs(steering - self.steering_rad) > p.steady_rad
+        self.steering_rad += (steering - self.steering_rad) * 0.01 / STEADY_S
+        if turning or state.shifting:
+            return ""
+        if abs(ego.speed_mps) < p.moving_mps:
+            still = float(state.wheel_speed_mps.max()) < 0.1
+            return f"{yaw:.2f} rad/s at a stand" if still and abs(yaw) > p.gyro_still_radps else ""
+        expected = ego.yaw_rate_of(steering)
+        far = abs(yaw - expected) > p.gyro_radps + p.gyro_share * abs(expected)
+        return f"{yaw - expected:.2f} rad/s beside the steering" if far else ""
+
+
+@dataclass
+class Wheels:
+    """Wheel speeds against the speed of a fix."""
+
+    parameters: PlausibilityParameters
+    repeats: Repeats
+    wheel_mps: Floats | None = None
+
+    def wrong(self, state: VehicleState, ego: Ego, others: Witnesses) -> str | None:
+        """See the module."""
+        p, moving = self.parameters, abs(ego.speed_mps) > self.parameters.moving_mps
+        before, self.wheel_mps = self.wheel_mps, state.wheel_speed_mps
+        if self.repeats.again(state.wheel_speed_mps) and moving:
+            return FROZEN
+        if before is not None and _middle(np.abs(self.wheel_mps - before)) > p.wheel_step_mps:
+            return "noisy"
+        fix = others.fix_at(state.time_ns)
+        if fix is None or not ego.ready:
+            return None if others.fix else ""
+        east, north, _ = fix.velocity_mps.tolist()
+        apart = _middle(state.wheel_speed_mps) - hypot(east, north)
+        return f"{apart:.1f} m/s beside GPS" if abs(apart) > p.wheels_mps and moving else ""
+
+
+@dataclass
+class Compass:
+    """The compass against the estimated heading."""
+
+    parameters: PlausibilityParameters
+    repeats: Repeats
+
+    def wrong(self, compass: CompassHeading, ego: Ego, others: Witnesses) -> str | None:
+        """See the module."""
+        del others
+        if not ego.ready:
+            return ""
+        moving = abs(ego.speed_mps) > self.parameters.moving_mps
+        if self.repeats.again(compass.heading_rad) and moving:
+            return FROZEN
+        gap = abs(ego.compass_gap_rad(compass.heading_rad))
+        return f"{gap:.2f} rad off" if gap > self.parameters.compass_rad else ""
+
+
+@dataclass
+class Ranges:
+    """Sonars and radars: what sees something, and moves, does not say the same again."""
+
+    parameters: PlausibilityParameters
+    repeats: Repeats
+
+    def wrong(self, echoes: SonarScan | RadarTracks, ego: Ego, others: Witnesses) -> str | None:
+        """See the module."""
+        del others
+        range_m = echoes.range_m
+        again = self.repeats.again(range_m)
+        sees = range_m.size > 0 and float(range_m.min()) < float(range_m.max())
+        if not sees:
+            return None
+        return FROZEN if again and abs(ego.speed_mps) > self.parameters.moving_mps else ""
+
+
+def _middle(wheels: Floats) -> float:
+    """Median of six."""
+    return float(np.sort(wheels)[2:4].mean())

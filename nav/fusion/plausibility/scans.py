@@ -1,0 +1,79 @@
+"""Whether a LIDAR's ranges can be true: neither noise nor one offset of all beams."""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from nav.messages import Floats, LidarScan
+from nav.parameters.plausibility import ScanParameters
+
+NO_RETURN_M = 81.92
+EVERY = 4
+"""So many beams are enough to see that all have jumped."""
+
+
+@dataclass
+class Scans:
+    """What one scanner said last, and when it was looked at closely."""
+
+    parameters: ScanParameters
+    range_m: Floats | None = None
+    time_ns: int = 0
+    shift_m: float = 0.0
+    """By how much all its ranges have jumped so far."""
+    looked_ns: int = 0
+
+    def wrong(self, scan: LidarScan, speed_mps: float) -> str | None:
+        """Why a scan is implausible, or nothing; None where it is not looked at closely."""
+        p, before, past_ns = self.parameters, self.range_m, self.time_ns
+        self.range_m, self.time_ns = scan.range_m, scan.time_ns
+        if before is None:
+            return ""
+        way_m = abs(speed_mps) * (scan.time_ns - past_ns) * 1e-9
+        self.shift_m += jump_m(before[::EVERY], scan.range_m[::EVERY], way_m, p)
+        if scan.time_ns - self.looked_ns < p.every_s * 1e9:
+            return None
+        self.looked_ns = scan.time_ns
+        if scan.range_m.tobytes() == before.tobytes():
+            return "frozen" if bool((before < NO_RETURN_M).any()) else ""
+        if abs(self.shift_m) > p.jump_m:
+            return f"all its ranges changed by {self.shift_m:.1f} m"
+        return "noisy" if roughness_m(scan.range_m, p) > p.rough_m else ""
+
+
+def roughness_m(range_m: Floats, p: ScanParameters) -> float:
+    """Median of |r[i-1] - 2 r[i] + r[i+1]| over near beams, [m]: of the world it is small, as most
+    neighbours see the same thing. Far away the beams graze the ground, and differ. 0 where there
+    are too few."""
+    near = range_m < p.near_m
+    whole = near[:-2] & near[1:-1] & near[2:]
+    if np.count_nonzero(whole) < p.least:
+        return 0.0
+    bend = np.abs(range_m[:-2] - 2.0 * range_m[1:-1] + range_m[2:])[whole]
+    return _median(bend)
+
+
+def jump_m(before_m: Floats, range_m: Floats, way_m: float, p: ScanParameters) -> float:
+    """By how much all ranges have changed alike, [m]; 0 where they have not.
+
+    The world does not do that: what the vehicle nears on its `way_m` comes nearer by the cosine of
+    its bearing, and ground moves with the square of its range as the vehicle pitches.
+    """
+    change = range_m - before_m
+    far = np.abs(change) > p.jump_m
+    if 2 * np.count_nonzero(far) < p.least // EVERY:  # as nearly always: no need to look closer
+        return 0.0
+    both = np.flatnonzero((before_m < NO_RETURN_M) & (range_m < NO_RETURN_M))
+    if both.size < p.least // EVERY or EVERY * (both[-1] - both[0]) < p.span:
+        return 0.0
+    change = change[both]
+    middle = _median(change)
+    if abs(middle) < p.jump_m + way_m:
+        return 0.0
+    alike = np.count_nonzero(np.abs(change - middle) < p.alike_m)
+    return middle if alike > p.alike_share * change.size else 0.0
+
+
+def _median(values: Floats) -> float:
+    half = values.size // 2
+    return float(np.partition(values, half)[half])

@@ -1,0 +1,69 @@
+"""Parameters of the plausibility of what sensors say."""
+
+from dataclasses import dataclass
+
+
+@dataclass(frozen=True)
+class EvidenceParameters:
+    """How much speaks for a doubt."""
+
+    time_s: float
+    """Time constant of the share of messages that are implausible."""
+    doubt: float
+    """A device is doubted once that share exceeds this ..."""
+    believe: float
+    """... until it has fallen below this."""
+
+
+@dataclass(frozen=True)
+class ScanParameters:
+    """LIDAR scans."""
+
+    every_s: float
+    """So often one scan of each scanner is looked at."""
+    least: int
+    """Of beams with a return, for a judgement."""
+    near_m: float
+    """Nearer than this, ..."""
+    rough_m: float
+    """... ranges of neighbouring beams bend by less, but for noise."""
+    jump_m: float
+    """All ranges change at once by more ..."""
+    alike_m: float
+    """... within this of each other ..."""
+    alike_share: float
+    """... for this share of the beams ..."""
+    span: int
+    """... over so many beams: an offset has come, or gone."""
+
+
+@dataclass(frozen=True)
+class PlausibilityParameters:
+    """`plausibility.toml`."""
+
+    evidence: EvidenceParameters
+    scan: ScanParameters
+    moving_mps: float
+    """Faster than this, what a sensor says changes."""
+    gps_m: float
+    """A fix is this far from where dead reckoning has the antenna, beside what both allow."""
+    gps_sd: float
+    """So many standard deviations both are allowed."""
+    gps_outage_s: float
+    """After an outage a receiver may be anywhere, for so long."""
+    wheels_mps: float
+    """Wheels against the speed of the last fix."""
+    wheel_step_mps: float
+    """Most wheels do not change so fast from one message to the next."""
+    compass_rad: float
+    """Compass against the estimated heading."""
+    gyro_step_radps: float
+    """A yaw rate does not change so fast from sample to sample."""
+    gyro_radps: float
+    """Gyro against steering: so much, and ..."""
+    gyro_share: float
+    """... this share of what the steering gives."""
+    gyro_still_radps: float
+    """At a stand."""
+    steady_rad: float
+    """Steering that moves more within half a second gives no yaw rate to compare with."""

@@ -1,0 +1,138 @@
+"""Whom to believe: each sensor, healthy and spoiled as a fault spoils it."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from nav.fusion.plausibility import Plausibility
+from nav.fusion.plausibility.scans import jump_m, roughness_m
+from nav.messages import (
+    CompassHeading,
+    Gear,
+    GpsFix,
+    GpsQuality,
+    ImuSample,
+    LidarScan,
+    RadarTracks,
+    SonarScan,
+    VehicleState,
+)
+from scenarios.parameter_files import parameters_of
+from twin.faults.spoiled import spoiled
+
+P = parameters_of("ion").plausibility
+SPEED_MPS = 5.0
+RATE_HZ = {
+    LidarScan: 37.5, SonarScan: 20.0, RadarTracks: 15.0, GpsFix: 20.0, ImuSample: 100.0,
+    CompassHeading: 10.0, VehicleState: 50.0,
+}  # fmt: skip
+DEGREE_M = 111_320.0
+
+
+class Straight:
+    """The ego state of who drives steadily along the equator, and knows it."""
+
+    ready = True
+    speed_mps = SPEED_MPS
+
+    def antenna_gap_m(self, fix):
+        x, y = fix.longitude_deg * DEGREE_M, fix.latitude_deg * DEGREE_M
+        return float(np.hypot(x - SPEED_MPS * fix.time_ns * 1e-9, y)), 0.05
+
+    def compass_gap_rad(self, heading_rad):
+        return heading_rad
+
+    def yaw_rate_of(self, steering_rad):
+        return SPEED_MPS * steering_rad / 2.0
+
+
+def message(kind, time_ns, rng):
+    """What a healthy sensor says."""
+    t = time_ns * 1e-9
+    wall = 6.0 / np.maximum(np.cos(np.linspace(-1.5, 1.5, 361)), 0.1) - 0.2 * np.sin(t)
+    noise = rng.standard_normal(361)
+    return {
+        LidarScan: lambda: LidarScan(time_ns, "lidar_roof", wall + 0.006 * noise),
+        SonarScan: lambda: SonarScan(time_ns, 2.0 + 0.01 * noise[:8]),
+        RadarTracks: lambda: RadarTracks(time_ns, 30.0 + noise[:2], noise[:2], noise[:2]),
+        GpsFix: lambda: GpsFix(
+            time_ns, GpsQuality.CONVERGED, 8, 0.1 * noise[0] / DEGREE_M,
+            (SPEED_MPS * t + 0.1 * noise[1]) / DEGREE_M, 0.0, 0.1, (SPEED_MPS, 0.0, 0.0),
+        ),
+        ImuSample: lambda: ImuSample(time_ns, 0.002 * noise[:3], (0.0, 0.0, 9.81), 0.0, 0.0),
+        CompassHeading: lambda: CompassHeading(time_ns, 0.02 * noise[0]),
+        VehicleState: lambda: VehicleState(
+            time_ns, SPEED_MPS + 0.02 * noise[:6], 0.001 * noise[6], 0.3, 0.0, Gear.HIGH, False
+        ),
+    }[kind]()  # fmt: skip
+
+
+def drive(kind, seconds, spoil=lambda m: m, monitor=None, from_s=12.0):
+    """Hear all sensors for some seconds, one kind of them spoiled; what is doubted then."""
+    monitor, rng, ego = monitor or Plausibility(P), np.random.default_rng(0), Straight()
+    ticks = range(round(from_s * 300), round((from_s + seconds) * 300))
+    for k in ticks:
+        for each, rate in RATE_HZ.items():
+            if k % round(300 / rate) == 0:
+                said = message(each, k * 10**9 // 300, rng)
+                monitor.believes(spoil(said) if each is kind else said, ego)
+    return monitor
+
+
+def warm(kind):
+    """Who has heard all sensors for long enough that GPS has no outage to be excused by."""
+    return drive(kind, 12.0, from_s=0.0)
+
+
+def test_healthy_sensors_are_believed():
+    assert warm(None).doubted == {}
+
+
+KINDS = [LidarScan, GpsFix, ImuSample, CompassHeading, VehicleState]
+
+
+@pytest.mark.parametrize("how", ["noisy", "offset"])
+@pytest.mark.parametrize("kind", KINDS)
+def test_a_spoiled_sensor_is_doubted_and_believed_again(kind, how):
+    monitor, rng = warm(kind), np.random.default_rng(1)
+    drive(kind, 2.5, lambda m: spoiled(m, how, None, rng), monitor)
+    assert len(monitor.doubted) == 1
+    drive(kind, 4.0, monitor=monitor, from_s=14.5)
+    assert monitor.doubted == {}
+
+
+@pytest.mark.parametrize("kind", [*KINDS, SonarScan, RadarTracks])
+def test_a_frozen_sensor_is_doubted(kind):
+    monitor, rng = warm(kind), np.random.default_rng(0)
+    held = message(kind, 0, rng)
+    drive(kind, 1.5, lambda m: replace(held, time_ns=m.time_ns), monitor)
+    assert len(monitor.doubted) == 1
+
+
+def test_a_scanner_that_sees_nothing_is_not_frozen():
+    nothing = np.full(361, 81.92)
+    monitor = drive(LidarScan, 2.0, lambda m: replace(m, range_m=nothing))
+    assert monitor.doubted == {}
+
+
+def test_after_an_outage_a_receiver_may_be_elsewhere():
+    monitor, rng = warm(GpsFix), np.random.default_rng(1)
+    drive(GpsFix, 1.0, lambda m: replace(m, quality=GpsQuality.NONE), monitor)
+    drive(GpsFix, 3.0, lambda m: spoiled(m, "offset", 2.0, rng), monitor, 13.0)
+    assert monitor.doubted == {}
+
+
+def test_edges_are_no_noise():
+    posts = np.where(np.arange(361) // 20 % 2, 5.0, 9.0)
+    assert roughness_m(posts, P.scan) == 0.0
+    noise = 0.5 * np.random.default_rng(0).standard_normal(361)
+    assert roughness_m(5.0 + noise, P.scan) > P.scan.rough_m
+
+
+def test_what_comes_nearer_does_not_jump():
+    wall = np.full(361, 10.0)
+    assert jump_m(wall, wall - 0.7, 0.7, P.scan) == 0.0
+    assert jump_m(wall, wall - 0.7, 0.1, P.scan) == pytest.approx(-0.7)
+    pitched = np.linspace(8.0, 30.0, 361)
+    assert jump_m(pitched, pitched + 0.002 * pitched**2, 0.1, P.scan) == 0.0
