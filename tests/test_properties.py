@@ -184,24 +184,26 @@ def moved(fix: GpsFix, place_deg: tuple[float, float], sd_m: float) -> GpsFix:
 def test_a_gps_that_insists_on_another_place_breaks_nothing(place_deg, sd_m):
     """Half a kilometre aside, one behind the start, where no place is set, the poles. Who never
     lost its satellites does not jump: it is not believed, and the vehicle stands."""
-    navigator = insisted(place_deg, sd_m, outage_ticks=0)
+    navigator = fixed_by(lambda tick, fix: moved(fix, place_deg, sd_m))
     assert navigator.state == "alarm"
     assert np.abs(navigator.ego.estimate(navigator.admission.now_ns).position_m).max() < 100.0
 
 
 def test_a_gps_that_is_elsewhere_after_an_outage_is_believed():
-    navigator = insisted((34.045, -117.6), 0.1, outage_ticks=10)
+    def aside(tick, fix):
+        south = replace(fix, latitude_deg=fix.latitude_deg - 0.005)
+        return gone(fix) if tick < 10 else south
+
+    navigator = fixed_by(aside)
     assert np.abs(navigator.ego.estimate(navigator.admission.now_ns).position_m).max() > 400.0
 
 
-def insisted(place_deg, sd_m, outage_ticks):
-    """The navigator after a stretch of the drive with all fixes elsewhere, the first without."""
+def fixed_by(fixes):
+    """The navigator after a stretch of the drive with other fixes."""
     navigator, start = pickle.loads(drive().navigator[790]), 790
     for tick, (now_ns, sensed) in enumerate(drive().given[start : start + TICKS]):
-        there = [moved(m, place_deg, sd_m) if isinstance(m, GpsFix) else m for m in sensed]
-        if tick < outage_ticks:
-            there = [gone(m) if isinstance(m, GpsFix) else m for m in sensed]
-        assert_sound(navigator.step(now_ns, there), navigator)
+        others = [fixes(tick, m) if isinstance(m, GpsFix) else m for m in sensed]
+        assert_sound(navigator.step(now_ns, others), navigator)
     return navigator
 
 
