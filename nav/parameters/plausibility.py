@@ -21,14 +21,16 @@ class ScanParameters:
 
     every_s: float
     """So often one scan of each scanner is looked at."""
-    least: int
-    """Of beams with a return, for a judgement."""
     near_m: float
     """Nearer than this, ..."""
     rough_m: float
-    """... ranges of neighbouring beams bend by less, but for noise."""
+    """... ranges of neighbouring beams bend by less, but for noise ..."""
+    least: int
+    """... if so many can be judged."""
+    jump_least: int
+    """Of so many beams, ..."""
     jump_m: float
-    """All ranges change at once by more ..."""
+    """... the ranges change at once by more ..."""
     alike_m: float
     """... within this of each other ..."""
     alike_share: float

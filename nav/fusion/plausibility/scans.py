@@ -61,10 +61,10 @@ def jump_m(before_m: Floats, range_m: Floats, way_m: float, p: ScanParameters) -
     """
     change = range_m - before_m
     far = np.abs(change) > p.jump_m
-    if 2 * np.count_nonzero(far) < p.least // EVERY:  # as nearly always: no need to look closer
+    if EVERY * np.count_nonzero(far) < p.jump_least:  # as nearly always: no need to look closer
         return 0.0
     both = np.flatnonzero((before_m < NO_RETURN_M) & (range_m < NO_RETURN_M))
-    if both.size < p.least // EVERY or EVERY * (both[-1] - both[0]) < p.span:
+    if EVERY * both.size < p.jump_least or EVERY * (both[-1] - both[0]) < p.span:
         return 0.0
     change = change[both]
     middle = _median(change)
