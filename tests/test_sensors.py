@@ -31,6 +31,7 @@ from twin.world import Obstacle, World
 ANCHOR = (34.1, -117.5)
 SECOND = 300
 SKY = np.array([[a, e] for e in (0.5, 1.1) for a in np.arange(5) * 1.2566 + e])
+ALONE = {"cross_talk": 0.0}
 EXACT = {"position_sd_m": 0.0, "angle_sd_rad": 0.0}
 
 
@@ -277,7 +278,7 @@ def test_lidar_bias_differs_from_unit_to_unit():
 
 def test_sonar_hears_walls_at_its_sides_and_not_the_plain():
     walls = [wall(0.0, 2.1, (6.0, 0.1, 2.0)), wall(0.0, -1.9, (6.0, 0.1, 2.0))]
-    suite = make_suite(2, walls, only("sonar"), parameters(mounting=EXACT))
+    suite = make_suite(2, walls, only("sonar"), parameters(mounting=EXACT, sonar=ALONE))
     ranges = np.array([m.range_m for m in of(run(suite, FakeView(), 3000), SonarScan)])
     np.testing.assert_allclose(ranges[:, 2:6].mean(axis=0), [1.3, 1.3, 1.1, 1.1], atol=0.01)
     assert ranges[:, 2:6].std(axis=0) == pytest.approx([0.01] * 4, rel=0.25)

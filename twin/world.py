@@ -10,8 +10,12 @@ from twin.faults import Fault
 
 Floats = NDArray[np.float64]
 
-OPACITY = {"brush": 0.5, "phantom": 1.0}
+OPACITY = {"brush": 0.5, "grass": 0.35, "dust": 0.15, "phantom": 1.0}
 """Kinds of obstacle that hold nothing back but beams, and the share of beams (estimated)."""
+SILENT = frozenset({"dust"})
+"""Kinds that sound passes."""
+METAL = frozenset({"car", "tunnel", "tank_trap"})
+"""Kinds of steel: they turn a compass."""
 SOFT = frozenset({"rumble_strip", *OPACITY})
 """Kinds of obstacle that a vehicle may touch."""
 
@@ -51,7 +55,10 @@ class Road:
     """Its middle, at least two points."""
     width_m: float
     unseen_m: tuple[tuple[float, float], ...] = ()
-    """Stretches, from station to station, on which nothing can be made out (glare)."""
+    """Stretches, from station to station, on which nothing can be made out."""
+    sun_rad: tuple[float, float] | None = None
+    """Azimuth, counter-clockwise from east, and elevation: towards a low sun the camera sees
+    glare."""
 
 
 @dataclass(frozen=True)

@@ -109,4 +109,7 @@ def _start(trial: Trial) -> tuple[float, float, float]:
 
 def _road(trial: Trial) -> Road | None:
     plan = trial.road
-    return plan and Road(tuple(plan.line_m), plan.width_m, tuple(plan.unseen_m))
+    if plan is None:
+        return None
+    sun = plan.sun_deg and (radians(plan.sun_deg[0]), radians(plan.sun_deg[1]))
+    return Road(tuple(plan.line_m), plan.width_m, tuple(plan.unseen_m), sun)

@@ -56,6 +56,8 @@ class RoadPlan(_Strict, frozen=True):
     line_m: list[Point]
     width_m: float
     unseen_m: list[Point] = []
+    sun_deg: Point | None = None
+    """Azimuth, counter-clockwise from east, and elevation."""
 
 
 class Waypoint(_Strict, frozen=True, array_like=True):

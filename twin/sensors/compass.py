@@ -1,26 +1,33 @@
-"""Digital compass: heading with an error that stays and one that does not."""
+"""Digital compass: heading with an error that stays, one that does not, and one from steel."""
+
+from collections.abc import Sequence
 
 import numpy as np
 
 from nav.messages import CompassHeading
+from twin.sensors.iron import Iron
 from twin.sensors.parameters import CompassParameters
 from twin.sensors.sensor import View, generator, schedule
+from twin.world import Obstacle
 
 
 class Compass:
-    """The bias stands for what calibration and the vehicle's iron leave."""
+    """The bias stands for what calibration and the vehicle's own iron leave."""
 
     name = "compass"
 
-    def __init__(self, seed: int, p: CompassParameters) -> None:
+    def __init__(self, seed: int, p: CompassParameters, obstacles: Sequence[Obstacle] = ()) -> None:
         self.schedule = schedule(p)
         self._p = p
         self._rng = generator(seed, self.name)
+        self._iron = Iron(obstacles, p)
         self._bias_rad = p.bias_sd_rad * self._rng.standard_normal()
 
     def measure(self, view: View, time_ns: int) -> CompassHeading:
         """The heading of this instant."""
-        forward = view.site_pose(self.name)[1][:, 0]
+        position, rotation = view.site_pose(self.name)
+        forward = rotation[:, 0]
         error = self._bias_rad + self._p.noise_sd_rad * self._rng.standard_normal()
+        error -= self._iron.turn_rad(position)
         heading = np.arctan2(forward[1], forward[0]) + error
         return CompassHeading(time_ns, float(np.pi - (np.pi - heading) % (2.0 * np.pi)))

@@ -1,4 +1,4 @@
-"""GPS receiver: hidden by what stands between antenna and satellites, slow to converge again."""
+"""GPS receiver: as good as the sky that is open above it, and slow to converge again."""
 
 from math import exp, hypot, sqrt
 
@@ -7,6 +7,7 @@ import numpy as np
 from nav.messages import GpsFix, GpsQuality
 from twin.earth import to_geodetic
 from twin.raycast import Scene, cast
+from twin.sensors.horizon import Horizon
 from twin.sensors.parameters import GpsParameters, MountingParameters
 from twin.sensors.sensor import Floats, View, draw_mounting, generator, schedule
 from twin.world import World
@@ -15,8 +16,10 @@ from twin.world import World
 class Gps:
     """A differential receiver that has converged before the episode begins.
 
-    Position error: a Gauss-Markov bias, white noise, and after each loss of the sky an offset
-    that decays slowly. While it sees too few satellites it repeats its last solution.
+    Satellites are hidden by what stands around, and by the ground as far as the horizon. Position
+    error: a Gauss-Markov bias and white noise, both as many times larger as the dilution of
+    precision is than under an open sky; and after each loss of the sky an offset that decays
+    slowly. While it sees too few satellites it repeats its last solution.
     """
 
     name = "gps"
@@ -28,7 +31,11 @@ class Gps:
         self._p, self._scene, self._anchor = p, scene, world.anchor
         self._rng = generator(seed, self.name)
         self._mounting = draw_mounting(self._rng, mounting)
+        self._satellite = world.satellites
         self._to_satellite = _directions(world.satellites)
+        self._horizon = Horizon(world.terrain, p.sky_range_m, p.horizon_m)
+        self._open = hdop(self._to_satellite)
+        self._dilution = 1.0
         self._spread = np.array([1.0, 1.0, p.vertical_factor])
         self._bias_m = p.bias_sd_m * self._rng.standard_normal(3)
         self._belief = exp(p.sd_scale_sd * self._rng.standard_normal())
@@ -56,9 +63,16 @@ class Gps:
     def _look_up(self, position: Floats) -> None:
         """Count the satellites that nothing hides; is their geometry good enough?"""
         limit = self._p.sky_range_m
-        seen = self._to_satellite[cast(self._scene, position, self._to_satellite, limit) >= limit]
+        free = cast(self._scene, position, self._to_satellite, limit) >= limit
+        seen = self._to_satellite[free & ~self._horizon.hides(position, self._satellite)]
         self._satellites = len(seen)
-        self._sky = len(seen) >= self._p.min_satellites and hdop(seen) <= self._p.max_hdop
+        if len(seen) == len(self._satellite):
+            self._sky, self._dilution = len(seen) >= self._p.min_satellites, 1.0
+            return
+        now = hdop(seen) if len(seen) >= self._p.min_satellites else np.inf
+        self._sky = now <= self._p.max_hdop
+        if self._sky:
+            self._dilution = now / self._open
 
     def _age(self) -> None:
         """Let the bias wander and the offset of the last outage fade."""
@@ -82,13 +96,15 @@ class Gps:
         return self._wait_s <= 0.0
 
     def _solve(self, position: Floats, noise: Floats) -> tuple[float, float, float]:
-        error = self._bias_m + self._outage_m + self._p.noise_sd_m * noise
+        usual = self._bias_m + self._p.noise_sd_m * noise
+        error = self._dilution * usual + self._outage_m
         east, north, up = position + self._spread * error
         latitude, longitude = to_geodetic(self._anchor, east, north)
         return float(latitude), float(longitude), float(up)
 
     def _sd_m(self) -> float:
-        return self._belief * hypot(self._p.bias_sd_m, self._p.noise_sd_m, self._outage_sd_m)
+        usual = self._dilution * hypot(self._p.bias_sd_m, self._p.noise_sd_m)
+        return self._belief * hypot(usual, self._outage_sd_m)
 
     def _quality(self, locked: bool) -> GpsQuality:
         if not locked:

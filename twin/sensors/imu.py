@@ -13,7 +13,7 @@ Tilt = tuple[float, float]
 
 
 class Imu:
-    """Rates and accelerations with bias and noise.
+    """Rates and accelerations with noise, a scale, and a bias that walks.
 
     The vertical is erected slowly towards the apparent one, which accelerations tilt: this is the
     dynamic error of roll and pitch, de/dt = (apparent - true - e) / erection time.
@@ -26,6 +26,10 @@ class Imu:
         self._p = p
         self._rng = generator(seed, self.name)
         sd = np.repeat([p.gyro_bias_sd_radps, p.accelerometer_bias_sd_mps2], 3)
+        walk = np.repeat([p.gyro_walk_radps, p.accelerometer_walk_mps2], 3)
+        self._walk = walk / np.sqrt(p.rate_hz)
+        scale_sd = np.repeat([p.gyro_scale_sd, p.accelerometer_scale_sd], 3)
+        self._scale = 1.0 + scale_sd * generator(seed, f"{self.name} scale").standard_normal(6)
         tilt_bias = p.tilt_bias_max_rad * self._rng.uniform(-1.0, 1.0, 2)
         self._bias = np.concatenate([sd * self._rng.standard_normal(6), tilt_bias])
         noises = (p.gyro_noise_radps, p.accelerometer_noise_mps2, p.tilt_noise_rad)
@@ -37,7 +41,10 @@ class Imu:
         rate, force = view.imu()
         roll, pitch = self._tilt(tilt_of(view.site_pose(self.name)[1][2]), tilt_of(force))
         said = np.array([*rate.tolist(), *force.tolist(), roll, pitch])
-        said += self._bias + self._noise * self._rng.standard_normal(8)
+        noise = self._rng.standard_normal(14)
+        self._bias[:6] += self._walk * noise[8:]
+        said[:6] *= self._scale
+        said += self._bias + self._noise * noise[:8]
         return ImuSample(time_ns, said[:3], said[3:6], float(said[6]), float(said[7]))
 
     def _tilt(self, true: Tilt, apparent: Tilt) -> Tilt:

@@ -59,6 +59,10 @@ class SonarParameters(Timing, frozen=True):
     max_range_m: float
     noise_sd_m: float
     ground_echo_rad: float
+    mirror_rad: float
+    """A smooth face that is met at a flatter angle mirrors the sound away."""
+    cross_talk: float
+    """How often a unit hears another's pulse."""
 
 
 class RadarParameters(Timing, frozen=True):
@@ -87,6 +91,8 @@ class GpsParameters(Timing, frozen=True):
 
     sky_interval: int
     sky_range_m: float
+    horizon_m: float
+    """Beyond that range the ground hides satellites as far as this."""
     min_satellites: int
     max_hdop: float
     bias_sd_m: float
@@ -106,8 +112,13 @@ class ImuParameters(Timing, frozen=True):
 
     gyro_bias_sd_radps: float
     gyro_noise_radps: float
+    gyro_walk_radps: float
+    """By so much the bias walks in a second, as the square root of time."""
+    gyro_scale_sd: float
     accelerometer_bias_sd_mps2: float
     accelerometer_noise_mps2: float
+    accelerometer_walk_mps2: float
+    accelerometer_scale_sd: float
     tilt_bias_max_rad: float
     tilt_noise_rad: float
     erection_time_s: float
@@ -118,6 +129,13 @@ class CompassParameters(Timing, frozen=True):
 
     bias_sd_rad: float
     noise_sd_rad: float
+    metal_range_m: float
+    """Steel farther away turns it no more."""
+    metal_share: float
+    """Radius of the ball that disturbs the field like a thing of steel, as a share of the cube root
+    of its volume."""
+    metal_limit: float
+    """Of the disturbance, as a share of the Earth's field."""
 
 
 class OdometryParameters(Timing, frozen=True):
@@ -147,6 +165,10 @@ class RoadCameraParameters(Timing, frozen=True):
     confidence: float
     blind_confidence: float
     """Where the road cannot be seen."""
+    glare_rad: float
+    """It is blind when it looks so near to a low sun."""
+    glare_elevation_rad: float
+    """Higher than this no sun glares."""
     blind_factor: float
     """So much larger are its errors there."""
 

@@ -6,7 +6,7 @@ import numpy as np
 
 from nav.messages import RoadEstimate
 from twin.sensors.parameters import RoadCameraParameters
-from twin.sensors.sensor import View, generator, schedule
+from twin.sensors.sensor import Floats, View, generator, schedule
 from twin.world import Road
 
 
@@ -30,7 +30,8 @@ class RoadCamera:
         turn = (
             road - atan2(float(forward[1]), float(forward[0])) + self._p.heading_sd_rad * noise[1]
         )
-        seen = not any(a <= station <= b for a, b in self._road.unseen_m)
+        hidden = any(a <= station <= b for a, b in self._road.unseen_m)
+        seen = not (hidden or self._dazzled(forward))
         blur = 1.0 if seen else self._p.blind_factor
         confidence = (self._p.confidence if seen else self._p.blind_confidence) + 0.03 * noise[3]
         return RoadEstimate(
@@ -40,6 +41,13 @@ class RoadCamera:
             width_m=self._road.width_m + self._p.width_sd_m * float(noise[2]),
             confidence=float(np.clip(confidence, 0.0, 1.0)),
         )
+
+    def _dazzled(self, forward: Floats) -> bool:
+        """Whether it looks towards a low sun."""
+        if self._road.sun_rad is None or self._road.sun_rad[1] > self._p.glare_elevation_rad:
+            return False
+        off = atan2(float(forward[1]), float(forward[0])) - self._road.sun_rad[0]
+        return abs((off + np.pi) % (2.0 * np.pi) - np.pi) < self._p.glare_rad
 
     def _beside(self, x: float, y: float) -> tuple[float, float, float]:
         """Station, offset to the left, and direction of the nearest piece of the road."""

@@ -6,7 +6,7 @@ import numpy as np
 
 from twin.raycast import Scene, cast_hits
 from twin.sensors.sensor import Floats
-from twin.world import OPACITY, World
+from twin.world import OPACITY, SILENT, World
 
 
 class Rays(NamedTuple):
@@ -47,7 +47,10 @@ class Veil:
 
     def _opacity(self, sensor: str) -> Floats:
         """The share of a sensor's beams that each thing holds back, shape (n,)."""
-        seen = [o.seen_by in ("", sensor) for o in self._things]
+        seen = [
+            o.seen_by in ("", sensor) and not (sensor == "sonar" and o.kind in SILENT)
+            for o in self._things
+        ]
         return np.array([OPACITY[o.kind] for o in self._things]) * seen
 
 

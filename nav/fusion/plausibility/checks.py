@@ -21,6 +21,8 @@ from nav.parameters.plausibility import PlausibilityParameters
 
 STEADY_S = 0.5
 FROZEN = "frozen"
+TURNING_MPS = 0.1
+"""Wheels that stand may say so again and again."""
 
 
 @dataclass
@@ -108,8 +110,8 @@ class Wheels:
         """See the module."""
         p, moving = self.parameters, abs(ego.speed_mps) > self.parameters.moving_mps
         before, self.wheel_mps = self.wheel_mps, state.wheel_speed_mps
-        if self.repeats.again(state.wheel_speed_mps) and moving:
-            return FROZEN
+        if self.repeats.again(state.wheel_speed_mps):
+            return FROZEN if float(state.wheel_speed_mps.max()) > TURNING_MPS else None
         if before is not None and _middle(np.abs(self.wheel_mps - before)) > p.wheel_step_mps:
             return "noisy"
         fix = others.fix_at(state.time_ns)
@@ -117,7 +119,8 @@ class Wheels:
             return None if others.fix else ""
         east, north, _ = fix.velocity_mps.tolist()
         apart = _middle(state.wheel_speed_mps) - hypot(east, north)
-        return f"{apart:.1f} m/s beside GPS" if abs(apart) > p.wheels_mps and moving else ""
+        spinning = not moving and state.throttle > 0.1  # in a hole, say: that is no fault
+        return f"{apart:.1f} m/s beside GPS" if abs(apart) > p.wheels_mps and not spinning else ""
 
 
 @dataclass
@@ -132,9 +135,8 @@ class Compass:
         del others
         if not ego.ready:
             return ""
-        moving = abs(ego.speed_mps) > self.parameters.moving_mps
-        if self.repeats.again(compass.heading_rad) and moving:
-            return FROZEN
+        if self.repeats.again(compass.heading_rad):
+            return FROZEN if abs(ego.speed_mps) > self.parameters.moving_mps else None
         gap = abs(ego.compass_gap_rad(compass.heading_rad))
         return f"{gap:.2f} rad off" if gap > self.parameters.compass_rad else ""
 
@@ -154,7 +156,9 @@ class Ranges:
         sees = range_m.size > 0 and float(range_m.min()) < float(range_m.max())
         if not sees:
             return None
-        return FROZEN if again and abs(ego.speed_mps) > self.parameters.moving_mps else ""
+        if again:
+            return FROZEN if abs(ego.speed_mps) > self.parameters.moving_mps else None
+        return ""
 
 
 def _middle(wheels: Floats) -> float:
