@@ -4,11 +4,11 @@ import re
 from collections.abc import Mapping
 from dataclasses import dataclass
 from importlib import import_module
-from importlib.resources import files
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from ion.errors import UsageError
+from scenarios.scenario import scenario_names
 
 if TYPE_CHECKING:
     from scenarios.course import Course
@@ -67,12 +67,6 @@ class Source:
         from scenarios.route import build
 
         return build(self.route_text, self.route_name, self.first, self.last, seed)
-
-
-def scenario_names() -> list[str]:
-    """All scenarios that can be driven by name: the folders that hold a `scenario.toml`."""
-    folders = files("scenarios").iterdir()
-    return sorted(f.name for f in folders if f.is_dir() and (f / "scenario.toml").is_file())
 
 
 def scenario_source(name: str, options: Mapping[str, Any] | None = None) -> Source:

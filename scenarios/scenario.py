@@ -38,6 +38,12 @@ class Scenario(msgspec.Struct, frozen=True):
     """By the names of `build`'s arguments beyond the seed."""
 
 
+def scenario_names() -> list[str]:
+    """All scenarios that can be driven by name: the folders that hold a `scenario.toml`."""
+    folders = files("scenarios").iterdir()
+    return sorted(f.name for f in folders if f.is_dir() and (f / "scenario.toml").is_file())
+
+
 @cache
 def load_scenario(name: str) -> Scenario:
     """The scenario of a folder."""
