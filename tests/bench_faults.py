@@ -1,8 +1,8 @@
 """Every fault kind on every sensor, one at a time, over a course: `python tests/bench_faults.py
 [--jobs N] [--scenario nqe] [--seed N] [LINE ...]`, a line as `--fault` takes it.
 
-A line of a table for each: how it ended, contacts, departures, clearance, and where the vehicle stood
-at last, how long after the fault had begun. An hour and a half on two cores for the whole NQE.
+A line of a table for each: how it ended, contacts, departures, clearance, and when it stood
+at last, after the fault had begun. An hour and a half on two cores for the whole NQE.
 """
 
 import sys
