@@ -33,6 +33,7 @@ def _command() -> int:
     from ion.options import Options
     from ion.replay.options import Options as ReplayOptions
     from ion.report.options import Options as ReportOptions
+    from ion.truth.options import Options as TruthOptions
     from ion.view.options import Options as ViewOptions
 
     app = tyro.extras.SubcommandApp()
@@ -71,6 +72,13 @@ def _command() -> int:
         from ion.report import command
 
         return command.report(options)
+
+    @app.command
+    def truth(options: Annotated[TruthOptions, tyro.conf.arg(name="")]) -> int:
+        """Hold the twin against what is measured and published of the vehicle, as one page."""
+        from ion.truth import command
+
+        return command.truth(options)
 
     @app.command
     def view(options: Annotated[ViewOptions, tyro.conf.arg(name="")]) -> int:

@@ -1,0 +1,1 @@
+"""How true the twin is, as one page."""
