@@ -82,11 +82,7 @@ class ObstacleMap:
             name: scan_geometry(mount, vehicle.lidar, vehicle.outline)
             for name, mount in vehicle.lidar_mounts.items()
         }
-        self._teachers = [
-            name
-            for name, geometry in self.geometry.items()
-            if geometry.mount[2, 0] < -parameters.ground.teaching_slope
-        ]
+        self._teachers = self._looking_down(())
         """Mounted to look at the ground ahead: only such scanners teach it. The others meet ground
         when the vehicle rolls, far away and with errors of their own."""
         self._negative = parameters.negative
@@ -137,6 +133,14 @@ class ObstacleMap:
         gone = len([name for name in lost if name in self.geometry])
         share = len(self.geometry) / max(len(self.geometry) - gone, 1)
         self._hit = self.parameters.confidence.hit * share
+        self._teachers = self._looking_down(lost)
+
+    def _looking_down(self, lost: Sequence[str]) -> list[str]:
+        """The scanners that look at the ground ahead; without them, those that look there less."""
+        p = self.parameters.ground
+        fall = {n: -g.mount[2, 0] for n, g in self.geometry.items() if n not in lost}
+        steep = [name for name in fall if fall[name] > p.teaching_slope]
+        return steep or [name for name in fall if fall[name] > p.spare_slope]
 
     def recenter(self, x_m: float, y_m: float) -> None:
         """Move the map by whole cells, once (x_m, y_m) is `scroll_m` away from its middle."""

@@ -19,7 +19,9 @@ class GroundParameters:
     reach_m: float
     """How far known ground says something about its surroundings."""
     teaching_slope: float
-    """Only scanners mounted to fall at least this much per metre teach the ground."""
+    """Only scanners mounted to fall at least this much per metre teach the ground ..."""
+    spare_slope: float
+    """... or, when all of those are lost, this much."""
     teaching_range_m: float
     bump_m: float
     """What stands this high out of its own scan is no ground, however the scan is tilted."""

@@ -63,7 +63,7 @@ def _ranges(message: Any, errors: Errors) -> Any:
 def _scan(scan: LidarScan, errors: Errors) -> LidarScan:
     """In counts, as the scanner says it; what has no return has none."""
     counts = np.rint((scan.range_m + errors(len(scan.range_m))) / LIDAR_COUNT_M)
-    counts = np.clip(counts, 0, LIDAR_NO_RETURN_COUNT - 1)
+    counts = np.clip(counts, 0, LIDAR_NO_RETURN_COUNT - 1) + 0.0  # no -0
     none = scan.range_m >= NO_RETURN_M
     return replace(scan, range_m=np.where(none, scan.range_m, counts * LIDAR_COUNT_M))
 

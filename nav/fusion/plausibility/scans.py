@@ -35,20 +35,23 @@ class Scans:
             return None
         self.looked_ns = scan.time_ns
         if scan.range_m.tobytes() == before.tobytes():
-            return "frozen" if bool((before < NO_RETURN_M).any()) else ""
+            return "frozen" if np.count_nonzero(before < NO_RETURN_M) >= p.least else None
         if abs(self.shift_m) > p.jump_m:
             return f"all its ranges changed by {self.shift_m:.1f} m"
-        return "noisy" if roughness_m(scan.range_m, p) > p.rough_m else ""
+        rough_m = roughness_m(scan.range_m, p)
+        if rough_m is None:
+            return None
+        return "noisy" if rough_m > p.rough_m else ""
 
 
-def roughness_m(range_m: Floats, p: ScanParameters) -> float:
+def roughness_m(range_m: Floats, p: ScanParameters) -> float | None:
     """Median of |r[i-1] - 2 r[i] + r[i+1]| over near beams, [m]: of the world it is small, as most
-    neighbours see the same thing. Far away the beams graze the ground, and differ. 0 where there
-    are too few."""
+    neighbours see the same thing. Far away the beams graze the ground, and differ. None where
+    there are too few."""
     near = range_m < p.near_m
     whole = near[:-2] & near[1:-1] & near[2:]
     if np.count_nonzero(whole) < p.least:
-        return 0.0
+        return None
     bend = np.abs(range_m[:-2] - 2.0 * range_m[1:-1] + range_m[2:])[whole]
     return _median(bend)
 
