@@ -134,3 +134,32 @@ def test_an_offset_is_as_large_as_said():
     fix = faults.heard(S, "gps", MESSAGES[3])
     east = (fix.longitude_deg + 117.0) * 111_320 * np.cos(np.radians(34.0))
     assert (east, (fix.latitude_deg - 34.0) * 111_320) == pytest.approx((10.0, 10.0), rel=1e-3)
+
+
+def test_a_fault_of_a_drive_stands_on_its_tape_and_is_driven_again(tmp_path):
+    from ion.options import Options, job_of
+
+    lines = ("lidar_bumper silent 12s recovers 9s", "brake late by 0.2 30m")
+    recorded = job_of(Options("dead_end", fault=lines, out=tmp_path)).recorded(3)
+    assert recorded.command.endswith(f"--fault '{lines[0]}' --fault '{lines[1]}'")
+    assert [str(f) for f in recorded.course().world.faults] == list(lines)
+    assert recorded.log.stem.startswith("dead_end_lidar_bumper_silent")
+
+
+def test_a_scenario_file_says_what_fails():
+    from ion.courses import scenario_source
+
+    faults = scenario_source("lidar_recovers").course(0).world.faults
+    assert [str(f) for f in faults] == [
+        "lidar_bumper silent 12s recovers 90s", "lidar_left silent 70m recovers 60s",
+    ]  # fmt: skip
+
+
+def test_a_pioneer_has_no_steering_to_fail():
+    from ion.courses import scenario_source
+    from scenarios.failing import failing
+
+    course = scenario_source("small_robot").course(0)
+    assert failing(course, ["lidar_deck noisy 5s"]).world.faults
+    with pytest.raises(ValueError, match="no device 'steering' can fail here; known are lidar_de"):
+        failing(course, ["steering frozen 5s"])

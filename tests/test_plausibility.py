@@ -124,10 +124,11 @@ def test_after_an_outage_a_receiver_may_be_elsewhere():
 
 
 def test_edges_are_no_noise():
-    posts = np.where(np.arange(361) // 20 % 2, 5.0, 9.0)
-    assert roughness_m(posts, P.scan) == 0.0
-    noise = 0.5 * np.random.default_rng(0).standard_normal(361)
-    assert roughness_m(5.0 + noise, P.scan) > P.scan.rough_m
+    rough = 5.0 + np.random.default_rng(1).uniform(0.0, 4.0, 361)  # ground, say, and nearer
+    assert roughness_m(rough, rough - 0.2, P.scan) < 1e-9
+    noise = 0.5 * np.random.default_rng(0).standard_normal((2, 361))
+    assert roughness_m(*(5.0 + noise), P.scan) > P.scan.rough_m
+    assert roughness_m(rough + 40.0, rough + 40.0, P.scan) is None
 
 
 def test_what_comes_nearer_does_not_jump():

@@ -24,7 +24,7 @@ class ScanParameters:
     near_m: float
     """Nearer than this, ..."""
     rough_m: float
-    """... ranges of neighbouring beams bend by less, but for noise ..."""
+    """... changes from scan to scan differ less between neighbouring beams, but for noise ..."""
     least: int
     """... if so many can be judged."""
     jump_least: int

@@ -38,22 +38,25 @@ class Scans:
             return "frozen" if np.count_nonzero(before < NO_RETURN_M) >= p.least else None
         if abs(self.shift_m) > p.jump_m:
             return f"all its ranges changed by {self.shift_m:.1f} m"
-        rough_m = roughness_m(scan.range_m, p)
+        rough_m = roughness_m(before, scan.range_m, p)
         if rough_m is None:
             return None
         return "noisy" if rough_m > p.rough_m else ""
 
 
-def roughness_m(range_m: Floats, p: ScanParameters) -> float | None:
-    """Median of |r[i-1] - 2 r[i] + r[i+1]| over near beams, [m]: of the world it is small, as most
-    neighbours see the same thing. Far away the beams graze the ground, and differ. None where
-    there are too few."""
-    near = range_m < p.near_m
+def roughness_m(before_m: Floats, range_m: Floats, p: ScanParameters) -> float | None:
+    """Median of |d[i-1] - 2 d[i] + d[i+1]|, with d the change from one scan to the next, [m].
+
+    Of the world it is small: what one beam sees come nearer, so does its neighbour, and edges and
+    rough ground look the same a scan later. Far away, where beams graze the ground, that is not so.
+    None where too few are near.
+    """
+    near = (before_m < p.near_m) & (range_m < p.near_m)
     whole = near[:-2] & near[1:-1] & near[2:]
     if np.count_nonzero(whole) < p.least:
         return None
-    bend = np.abs(range_m[:-2] - 2.0 * range_m[1:-1] + range_m[2:])[whole]
-    return _median(bend)
+    d = range_m - before_m
+    return _median(np.abs(d[:-2] - 2.0 * d[1:-1] + d[2:])[whole])
 
 
 def jump_m(before_m: Floats, range_m: Floats, way_m: float, p: ScanParameters) -> float:
