@@ -24,6 +24,7 @@ from tape.digest import Digest
 from tape.errors import TapeError
 from tape.instruments import DriveTorque
 from tape.reader import read
+from tape.record import record_of_torque
 from tape.writer import TapeWriter
 
 SHORT = (
@@ -156,6 +157,17 @@ def test_refuses_a_tape_without_torque(tmp_path, short):
         evidence(other)
 
 
+def test_refuses_what_is_no_number(tmp_path, short):
+    other = tmp_path / "other.mcap"
+    with TapeWriter(other, mode="inputs") as tape:
+        for item in read(short, "/"):
+            spoilt = isinstance(item.message, DriveTorque) and item.delivery_ns == 5 * 10**9
+            broken = record_of_torque(item.delivery_ns, DriveTorque(5 * 10**9, float("nan")))
+            tape.write(broken if spoilt else item)
+    with pytest.raises(TapeError, match="no number"):
+        evidence(other)
+
+
 def test_refuses_a_tape_that_begins_in_motion(tmp_path, short):
     other = tmp_path / "other.mcap"
     with TapeWriter(other, mode="inputs") as tape:
@@ -192,3 +204,22 @@ def test_a_recorded_tape_says_what_made_it(tmp_path, monkeypatch):
     assert measured.made_with["mass"] == 1100.0
     assert measured.made_with["friction"] == QUANTITIES["friction"].model
     assert any(isinstance(r.message, VehicleState) for r in read(log))
+
+
+def test_refuses_a_tape_on_which_nobody_drives(tmp_path):
+    stand = (Phase("stand", 4.0, brake=1.0),)
+    with pytest.raises(TapeError, match="hardly moves"):
+        evidence(tape_of(tmp_path, phases=stand))
+
+
+def test_an_interrupted_recording_leaves_what_was_there(tmp_path, monkeypatch):
+    def interrupted(*_, **__):
+        raise KeyboardInterrupt
+
+    monkeypatch.setattr(command, "record_manoeuvre", interrupted)
+    log = tmp_path / "old.mcap"
+    log.write_text("before")
+    with pytest.raises(KeyboardInterrupt):
+        command.calibrate(Options(log, record=True))
+    assert [p.name for p in tmp_path.iterdir()] == ["old.mcap"]
+    assert log.read_text() == "before"

@@ -63,11 +63,16 @@ def _record(options: Options) -> int:
     made = {name: QUANTITIES[name].model for name in VEHICLE} | truth
     said = {"scenario": "calibration", "seed": str(options.seed), "vehicle": "ion"} | fingerprint()
     said |= {MADE + name: repr(value) for name, value in made.items()}
-    with (
-        TapeWriter(options.log, metadata=said, mode="inputs") as tape,
-        _bar("driving", manoeuvre()[-1].until_s) as show,
-    ):
-        record_manoeuvre(tape, options.seed, truth, watch=show)
+    part = options.log.with_name(options.log.name + ".part")
+    try:
+        with (
+            TapeWriter(part, metadata=said, mode="inputs") as tape,
+            _bar("driving", manoeuvre()[-1].until_s) as show,
+        ):
+            record_manoeuvre(tape, options.seed, truth, watch=show)
+        part.replace(options.log)
+    finally:  # Ctrl-C leaves what was there before
+        part.unlink(missing_ok=True)
     print(json.dumps({"log": str(options.log)}) if options.json else f"tape: {options.log}")
     return 0
 

@@ -1,5 +1,6 @@
 """What a tape says of a test drive, as arrays: what the actuators did, what the sensors felt."""
 
+from collections.abc import Iterable
 from math import sqrt
 from os import PathLike
 from typing import Any, NamedTuple
@@ -21,8 +22,10 @@ Ints = NDArray[np.int64]
 STAND_S = 2.5
 """So long the vehicle stands at the start: there the torque meter's zero is read."""
 STAND_STEPS = int(STAND_S * clock.STEPS_PER_SECOND)
-STANDING_MPS = 0.3
+STANDING_MPS, DRIVEN_MPS = 0.3, 3.0
 CONTROL_NS = clock.time_ns(CONTROL_STEPS)
+MADE = "made_with."
+"""Of the tape's metadata: what is below it the twin was told."""
 NEEDED = {
     ImuSample: "IMU",
     VehicleState: "drive-by-wire",
@@ -84,11 +87,11 @@ def evidence(path: str | PathLike[str]) -> Evidence:
             )
     said = metadata(path).items()
     made_with = {n.removeprefix(MADE): float(v) for n, v in said if n.startswith(MADE)}
-    return _evidence(path, heard, made_with)
-
-
-MADE = "made_with."
-"""Of the tape's metadata: what is below it the twin was told."""
+    result = _evidence(path, heard, made_with)
+    told = (*result.inputs, result.imu.value, result.wheels.value, result.gps.value)
+    if not all(np.isfinite(values).all() for values in told):
+        raise TapeError(f"{path}: a sensor says what is no number; expected numbers only")
+    return result
 
 
 def _evidence(path: Any, heard: dict[Any, list[Any]], made_with: dict[str, float]) -> Evidence:
@@ -96,8 +99,8 @@ def _evidence(path: Any, heard: dict[Any, list[Any]], made_with: dict[str, float
     steps = {kind: _steps(messages, origin_ns) for kind, messages in heard.items()}
     last = int(min(s[-1] for s in steps.values()))
     wheels = Series(steps[VehicleState], np.array([m.wheel_speed_mps for m in heard[VehicleState]]))
-    if wheels.value[wheels.step < STAND_STEPS].mean() > STANDING_MPS:
-        raise TapeError(f"{path}: expected the vehicle at rest for {STAND_S} s at the start")
+    if wrong := _wrong(steps.values(), wheels):
+        raise TapeError(f"{path}: {wrong}")
     imu = np.array([(*m.angular_rate_radps, *m.acceleration_mps2) for m in heard[ImuSample]])
     good = np.array([m.quality is not GpsQuality.NONE for m in heard[GpsFix]])
     speed = np.array([[np.hypot(*m.velocity_mps[:2])] for m in heard[GpsFix]])
@@ -109,6 +112,17 @@ def _evidence(path: Any, heard: dict[Any, list[Any]], made_with: dict[str, float
         _until(last, steps[GpsFix][good], speed[good]),
         made_with,
     )
+
+
+def _wrong(steps: Iterable[Ints], wheels: Series) -> str:
+    """Why this is no test drive, or nothing."""
+    if any((np.diff(step) <= 0).any() for step in steps):
+        return "a sensor's time does not go on; expected one clock for the whole tape"
+    if not (wheels.value[wheels.step < STAND_STEPS].mean() < STANDING_MPS):
+        return f"expected the vehicle at rest for {STAND_S} s at the start"
+    if not (wheels.value.max() > DRIVEN_MPS):
+        return f"the vehicle hardly moves; expected a test drive at more than {DRIVEN_MPS} m/s"
+    return ""
 
 
 def _steps(messages: list[Any], origin_ns: int) -> Ints:
