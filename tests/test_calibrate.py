@@ -193,6 +193,7 @@ def test_the_command_records_and_fits(tmp_path, short, capsys, monkeypatch):
     assert mass["low"] < mass["value"] < mass["high"]
     assert set(said["fitted_along"]) == set(quantities.ALONG)
     assert said["misfit"]["after"] < said["misfit"]["before"]
+    assert not said["explained"]  # the steering's gain was not asked for
     assert "data:image/png" in out.read_text(encoding="utf-8")
 
 

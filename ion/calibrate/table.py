@@ -7,6 +7,11 @@ from scenarios.calibration.quantities import QUANTITIES
 
 HEADS = ("parameter", "unit", "model", "found", "95 % interval", "made with", "off by", "what")
 
+UNEXPLAINED = (
+    "That is too much: something on this tape is not as in the model, whatever its values,"
+    " and the truth may lie outside the intervals."
+)
+
 
 def table(result: Result) -> Table:
     """For people at a terminal; what the names mean stands on the page."""
@@ -25,10 +30,11 @@ def rows(result: Result) -> list[tuple[str, ...]]:
 def caption(result: Result) -> str:
     """How well the curves agree."""
     before, after = result["misfit"]["before"], result["misfit"]["after"]
-    return (
+    told = (
         f"Mean square of what is felt less what should be, in units of its noise: {before:.3g}"
         f" with the model's own values, {after:.3g} with those found."
     )
+    return told if result["explained"] else f"{told} {UNEXPLAINED}"
 
 
 def _row(name: str, r: Result, along: bool) -> tuple[str, ...]:
