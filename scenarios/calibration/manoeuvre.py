@@ -35,11 +35,9 @@ def manoeuvre() -> tuple[Phase, ...]:
 
 def targets(phases: Sequence[Phase], time_ns: int) -> ActuatorTargets:
     """What is asked at a time; after the end, what was asked last."""
-    time_s, begin_s, phase = time_ns * 1e-9, 0.0, phases[0]
-    for phase, before in zip(phases, (None, *phases), strict=False):
-        begin_s = before.until_s if before else 0.0
-        if time_s < phase.until_s:
-            break
+    time_s, last = time_ns * 1e-9, len(phases) - 1
+    now = next((i for i, phase in enumerate(phases) if time_s < phase.until_s), last)
+    phase, begin_s = phases[now], phases[now - 1].until_s if now else 0.0
     return ActuatorTargets(
         time_ns, _steering_rad(phase, time_s - begin_s), phase.throttle, phase.brake, Gear.HIGH
     )
