@@ -28,6 +28,7 @@ def main() -> NoReturn:
 def _command() -> int:
     import tyro
 
+    from ion.calibrate.options import Options as CalibrateOptions
     from ion.explain.options import Options as ExplainOptions
     from ion.figures.options import Options as FiguresOptions
     from ion.options import Options
@@ -58,6 +59,13 @@ def _command() -> int:
         from ion.replay import command
 
         return command.replay_tapes(options)
+
+    @app.command
+    def calibrate(options: Annotated[CalibrateOptions, tyro.conf.arg(name="")]) -> int:
+        """Find the vehicle's mass, friction, steering and centre of gravity on a tape."""
+        from ion.calibrate import command
+
+        return command.calibrate(options)
 
     @app.command
     def figures(options: Annotated[FiguresOptions, tyro.conf.arg(name="")]) -> int:

@@ -20,11 +20,13 @@ from nav.messages import (
     lidar_range_m,
 )
 from tape.errors import CodecError
+from tape.instruments import DriveTorque
 from tape.schemas import counts_name, is_counts, shape_name, wire_class
 from tape.truth import TrueState
 
-M = TypeVar("M", bound=Message | TrueState)
-KINDS: tuple[type[Any], ...] = (*MESSAGE_TYPES, TrueState)
+Carried = Message | TrueState | DriveTorque
+M = TypeVar("M", bound=Carried)
+KINDS: tuple[type[Any], ...] = (*MESSAGE_TYPES, TrueState, DriveTorque)
 """All that a tape may carry."""
 
 _COUNTS = np.dtype("<u2")
@@ -43,7 +45,7 @@ class _Plan(NamedTuple):
     """Name, and the wire's name of its counts."""
 
 
-def encode(message: Message | TrueState) -> bytes:
+def encode(message: Carried) -> bytes:
     """The bytes of a message.
 
     Raises:
@@ -91,7 +93,7 @@ def _not_a_count(range_m: Floats, survived_m: Floats) -> str:
     )
 
 
-def _wire_values(plan: _Plan, message: Message | TrueState) -> dict[str, Any]:
+def _wire_values(plan: _Plan, message: Carried) -> dict[str, Any]:
     values = vars(message).copy()  # scalars as they are: protobuf refuses the wrong kind
     for name, kind in plan.enums:
         values[name] = kind(values[name])

@@ -10,13 +10,11 @@ from mcap.records import Attachment, Channel, Chunk, Header, Metadata, Schema
 from mcap.stream_reader import CRCValidationError
 from zstandard import ZstdError
 
-from nav.messages import Message as BoundaryMessage
-from tape.codec import KINDS, decode
+from tape.codec import KINDS, Carried, decode
 from tape.errors import TapeError
 from tape.mcap_records import MAGIC, Raw, records, unpacked
 from tape.record import PREFIX, PROFILE, Record
 from tape.schemas import schema_name
-from tape.truth import TrueState
 
 Path = str | os.PathLike[str]
 
@@ -32,7 +30,7 @@ class Packed(NamedTuple):
     """The message's type."""
     payload: bytes
 
-    def message(self) -> BoundaryMessage | TrueState:
+    def message(self) -> Carried:
         """Unpack it.
 
         Raises:

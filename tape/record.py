@@ -5,7 +5,8 @@ from functools import cache
 from typing import NamedTuple
 
 from nav.messages import LidarScan, Message
-from tape.codec import encode
+from tape.codec import Carried, encode
+from tape.instruments import MEASURED, DriveTorque
 from tape.truth import TRUTH, TrueState
 
 PREFIX = "/tape/"
@@ -20,7 +21,7 @@ class Record(NamedTuple):
     topic: str
     delivery_ns: int
     """When the message was handed over; when it was measured is `message.time_ns`."""
-    message: Message | TrueState
+    message: Carried
     payload: bytes
 
 
@@ -36,6 +37,11 @@ def record(delivery_ns: int, message: Message) -> Record:
 def record_of_truth(state: TrueState) -> Record:
     """What nobody delivered: it stands on the tape at its own time."""
     return Record(f"{TRUTH}vehicle", state.time_ns, state, encode(state))
+
+
+def record_of_torque(delivery_ns: int, torque: DriveTorque) -> Record:
+    """The record of what a torque meter said."""
+    return Record(f"{MEASURED}drive_torque", delivery_ns, torque, encode(torque))
 
 
 def topic(message: Message) -> str:

@@ -15,7 +15,7 @@ from twin.drivetrain import DrivetrainParameters, Engine, friction_torques, whee
 from twin.faults import Faults
 from twin.linkage import Gearbox, GearboxParameters
 from twin.truth import Applied
-from twin.vehicle import WHEELS, ackermann, actuators, linkage, tire_contact, tire_geoms
+from twin.vehicle import SIDES, WHEELS, ackermann, actuators, linkage, tire_contact, tire_geoms
 
 _SPEED_LEVEL_MPS = 0.05
 
@@ -30,6 +30,7 @@ class Plant(Body):
         start: see `Body`.
         seed: draws how long each shift takes.
         owners: see `Body`.
+        steering_gain: the front wheels turn so many times as far as `linkage` says.
     """
 
     def __init__(
@@ -43,11 +44,13 @@ class Plant(Body):
         drivetrain: DrivetrainParameters | None = None,
         drive_by_wire: DriveByWireParameters | None = None,
         gearbox: GearboxParameters | None = None,
+        steering_gain: float = 1.0,
     ) -> None:
         super().__init__(model, start, owners or {}, "ranger", WHEELS)
         self._actuators, self._tire_geom = actuators(model), tire_geoms(model)
         self._drivetrain = drivetrain or DrivetrainParameters()
         self._engine = Engine(self._drivetrain, CONTROL_S)
+        self._steering_gain = steering_gain
         rng = np.random.default_rng(np.random.SeedSequence(seed, spawn_key=tuple(b"gearbox")))
         self._shim = DriveByWire(
             drive_by_wire or DriveByWireParameters(),
@@ -68,6 +71,11 @@ class Plant(Body):
         """What the actuators do at this instant."""
         return self._shim.applied
 
+    @property
+    def drive_torque_n_m(self) -> float:
+        """Of the driveline at this instant, all wheels together, [N m]."""
+        return float(self.data.ctrl[self._actuators][len(SIDES) :].sum())
+
     def apply(self, time_ns: int, targets: ActuatorTargets) -> None:
         """Hand targets to the drive-by-wire unit."""
         self._shim.apply(time_ns, targets)
@@ -81,16 +89,21 @@ class Plant(Body):
         self._soften(abs(speed))
 
     def _actuate(self, applied: Applied, speed: float) -> None:
-        data, at, p = self.data, self._at, self._drivetrain
         gear = Gear.NEUTRAL if applied.shifting else applied.gear
         force = self._engine.force(applied.throttle, gear, speed)
+        self._hold(applied.steering_rad, force, applied.brake)
+
+    def _hold(self, steering_rad: float, force_n: float, brake: float) -> None:
+        """Put the steering, a tractive force of all wheels together and the brakes into force."""
+        data, at, p = self.data, self._at, self._drivetrain
         spin = data.qvel.take(at.spin_dof).tolist()
         data.ctrl[self._actuators] = (
-            *ackermann(linkage(applied.steering_rad)), *wheel_torques(p, force, spin),
-        )  # fmt: skip
-        if applied.brake != self._brake:
-            self._brake = applied.brake
-            self.model.dof_frictionloss[at.spin_dof] = friction_torques(p, applied.brake)
+            *ackermann(self._steering_gain * linkage(steering_rad)),
+            *wheel_torques(p, force_n, spin),
+        )
+        if brake != self._brake:
+            self._brake = brake
+            self.model.dof_frictionloss[at.spin_dof] = friction_torques(p, brake)
 
     def _soften(self, speed: float) -> None:
         level = int(speed / _SPEED_LEVEL_MPS)

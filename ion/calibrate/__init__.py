@@ -1,0 +1,1 @@
+"""`ion calibrate`: the vehicle's parameters from a tape."""
