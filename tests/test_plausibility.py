@@ -98,7 +98,7 @@ def test_a_spoiled_sensor_is_doubted_and_believed_again(kind, how):
     monitor, rng = warm(kind), np.random.default_rng(1)
     drive(kind, 2.5, lambda m: spoiled(m, how, None, rng), monitor)
     assert len(monitor.doubted) == 1
-    drive(kind, 4.0, monitor=monitor, from_s=14.5)
+    drive(kind, 8.0, monitor=monitor, from_s=14.5)
     assert monitor.doubted == {}
 
 
@@ -106,7 +106,7 @@ def test_a_spoiled_sensor_is_doubted_and_believed_again(kind, how):
 def test_a_frozen_sensor_is_doubted(kind):
     monitor, rng = warm(kind), np.random.default_rng(0)
     held = message(kind, 0, rng)
-    drive(kind, 1.5, lambda m: replace(held, time_ns=m.time_ns), monitor)
+    drive(kind, 2.0, lambda m: replace(held, time_ns=m.time_ns), monitor)
     assert len(monitor.doubted) == 1
 
 

@@ -19,6 +19,8 @@ class EvidenceParameters:
 class ScanParameters:
     """LIDAR scans."""
 
+    time_s: float
+    """Time constant of the evidence, instead of that of other devices."""
     every_s: float
     """So often one scan of each scanner is looked at."""
     near_m: float

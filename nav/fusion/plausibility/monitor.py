@@ -5,7 +5,7 @@ half a second is as good as silent: the device is reset, and given up where that
 (section 6.3).
 """
 
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from typing import Any
 
 from nav.fusion.plausibility.checks import Compass, Fixes, Gyro, Ranges, Repeats, Wheels
@@ -23,7 +23,7 @@ from nav.messages import (
     VehicleState,
     device,
 )
-from nav.parameters.plausibility import PlausibilityParameters
+from nav.parameters.plausibility import EvidenceParameters, PlausibilityParameters
 
 CHECKS: dict[type, Any] = {
     GpsFix: Fixes, ImuSample: Gyro, VehicleState: Wheels, CompassHeading: Compass,
@@ -51,13 +51,19 @@ class Plausibility:
         name = device(message)
         evidence = self._evidence.get(name)
         if evidence is None:
-            evidence = self._evidence[name] = Evidence(self.parameters.evidence)
+            evidence = self._evidence[name] = Evidence(self._patience(message))
         reason = self._wrong(name, message, ego)
         if reason is not None:
             evidence.weigh(message.time_ns, reason)
         if not evidence.doubted:
             self._witness(message)
         return not evidence.doubted
+
+    def _patience(self, message: SensorMessage) -> EvidenceParameters:
+        """A scanner may look strange for a while: over a bump, or past a bale."""
+        p = self.parameters
+        scans = isinstance(message, LidarScan)
+        return replace(p.evidence, time_s=p.scan.time_s) if scans else p.evidence
 
     def _wrong(self, name: str, message: SensorMessage, ego: Ego) -> str | None:
         check = self._checks.get(name)
