@@ -6,7 +6,7 @@ from pathlib import Path
 from tempfile import TemporaryFile
 from typing import Annotated, Literal
 
-from tyro.conf import Positional, arg
+from tyro.conf import Positional, UseAppendAction, arg
 
 from ion.courses import Source, route_source, scenario_names, scenario_source
 from ion.errors import UsageError
@@ -37,8 +37,9 @@ class Options:
     """One JSON object a line on standard output instead of a table."""
     ablate: Annotated[tuple[str, ...], arg(metavar="NAME...")] = ()
     """Drive without a sensor: blind, no-sonar, no-gps, no-imu, no-lidar-roof, ...; see docs."""
-    fault: Annotated[tuple[str, ...], arg(metavar="LINE...")] = ()
-    """Let devices fail: 'lidar_bumper silent 120s', 'gps offset by 5 800m-900m', ...; see docs."""
+    fault: Annotated[UseAppendAction[tuple[str, ...]], arg(metavar="LINE")] = ()
+    """Let a device fail: 'lidar_bumper silent 120s', 'gps offset by 5 800m-900m', ...; see docs.
+    May be said more than once."""
     log: Annotated[Log | None, arg(metavar="full|inputs|light|off")] = None
     """What goes on the tape: all; no /view/; no LIDAR scans; no tape. Default: full, and of many
     seeds the tapes of failures only."""
