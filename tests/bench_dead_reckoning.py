@@ -4,8 +4,8 @@ Victoria Park: speed of a wheel and steering at 40 Hz, GPS at 5 Hz with 41 gaps 
 IMU and no compass. Both reckonings start from the same state, fitted to the minute before a gap:
 one goes on with raw speed and steering, the other with the scale of the speed, gain and zero of the
 steering that this minute and those before have taught (an average that forgets over ten minutes).
-The error is the distance to the first fix after the gap. The last lines say what constants that nobody could
-know before would have reached: the limit of learning such biases on this log.
+The error is the distance to the first fix after the gap. The last line says what constants that
+nobody could know before would have reached: the limit of learning such biases on this log.
 """
 
 import itertools
