@@ -24,9 +24,11 @@ class ScanParameters:
     every_s: float
     """So often one scan of each scanner is looked at."""
     near_m: float
-    """Nearer than this, ..."""
-    rough_m: float
-    """... changes from scan to scan differ less between neighbouring beams, but for noise ..."""
+    """Of beams nearer than this, ..."""
+    steady_m: float
+    """... what changes as the neighbour's within this ..."""
+    steady_share: float
+    """... is a larger share, but for noise ..."""
     least: int
     """... if so many can be judged."""
     jump_least: int

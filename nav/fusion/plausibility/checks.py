@@ -119,8 +119,10 @@ class Wheels:
             return None if others.fix else ""
         east, north, _ = fix.velocity_mps.tolist()
         apart = _middle(state.wheel_speed_mps) - hypot(east, north)
+        if abs(apart) <= p.wheels_mps:
+            return ""
         spinning = not moving and state.throttle > 0.1  # in a hole, say: that is no fault
-        return f"{apart:.1f} m/s beside GPS" if abs(apart) > p.wheels_mps and not spinning else ""
+        return None if spinning else f"{apart:.1f} m/s beside GPS"
 
 
 @dataclass

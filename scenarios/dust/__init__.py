@@ -1,0 +1,1 @@
+"""Dust across the corridor, and grass beside the track."""
