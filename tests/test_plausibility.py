@@ -35,6 +35,7 @@ class Straight:
 
     ready = True
     speed_mps = SPEED_MPS
+    rocking_radps = 0.0
 
     def antenna_gap_m(self, fix):
         x, y = fix.longitude_deg * DEGREE_M, fix.latitude_deg * DEGREE_M
@@ -125,16 +126,16 @@ def test_after_an_outage_a_receiver_may_be_elsewhere():
 
 def test_edges_are_no_noise():
     rough = 5.0 + np.random.default_rng(1).uniform(0.0, 4.0, 361)  # ground, say, and nearer
-    assert steadiness(rough, rough - 0.2, P.scan) == 1.0
+    assert steadiness(rough, rough - 0.2, 20.0, P.scan) == 1.0
     noise = 0.5 * np.random.default_rng(0).standard_normal((2, 361))
-    assert steadiness(*(5.0 + noise), P.scan) < 0.2
-    assert steadiness(rough + 40.0, rough + 40.0, P.scan) is None
+    assert steadiness(*(5.0 + noise), 20.0, P.scan) < 0.2
+    assert steadiness(rough + 40.0, rough + 40.0, 20.0, P.scan) is None
 
 
 def test_leaves_that_half_of_the_beams_pass_are_no_noise():
     passed = np.random.default_rng(0).random((2, 361)) < 0.5
     before, after = np.where(passed, 15.0, 6.0)
-    assert steadiness(before, after, P.scan) > P.scan.steady_share
+    assert steadiness(before, after, 20.0, P.scan) > P.scan.steady_share
 
 
 def test_what_comes_nearer_does_not_jump():

@@ -159,6 +159,11 @@ class EgoState:
         """Signed, forward positive."""
         return float(self.filter.state[SPEED])
 
+    @property
+    def rocking_radps(self) -> float:
+        """How fast the vehicle rolls and pitches, as the IMU said last."""
+        return math.hypot(*self._last.attitude.rate_radps[:2])
+
     def antenna_gap_m(self, fix: GpsFix) -> tuple[float, float]:
         """How far a fix is from where the antenna is believed to be, and the standard deviation of
         that belief, [m]."""

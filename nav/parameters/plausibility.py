@@ -25,6 +25,8 @@ class ScanParameters:
     """So often one scan of each scanner is looked at."""
     near_m: float
     """Of beams nearer than this, ..."""
+    rocking_radps: float
+    """... unless the vehicle rolls and pitches faster, ..."""
     steady_m: float
     """... what changes as the neighbour's within this ..."""
     steady_share: float

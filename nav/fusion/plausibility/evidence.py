@@ -5,6 +5,9 @@ from math import exp
 
 from nav.parameters.plausibility import EvidenceParameters
 
+MOST_S = 0.1
+"""One message counts for no more, however long nothing could be said before it."""
+
 
 @dataclass
 class Evidence:
@@ -23,7 +26,8 @@ class Evidence:
         self._heard_ns = time_ns
         if before is None:
             return
-        gain = 1.0 - exp((before - time_ns) * 1e-9 / p.time_s)
+        since_s = min((time_ns - before) * 1e-9, MOST_S)
+        gain = 1.0 - exp(-since_s / p.time_s)
         self.share += gain * (bool(reason) - self.share)
         self.reason = reason or self.reason
         self.doubted = self.share > (p.believe if self.doubted else p.doubt)

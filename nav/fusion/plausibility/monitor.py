@@ -69,7 +69,7 @@ class Plausibility:
         check = self._checks.get(name)
         if isinstance(message, LidarScan):
             check = check or self._checks.setdefault(name, Scans(self.parameters.scan))
-            return check.wrong(message, ego.speed_mps)
+            return check.wrong(message, ego)
         kind = CHECKS.get(type(message))
         if kind is None:
             return ""

@@ -4,10 +4,12 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from nav.fusion.plausibility.witnesses import Ego
 from nav.messages import Floats, LidarScan
 from nav.parameters.plausibility import ScanParameters
 
 NO_RETURN_M = 81.92
+STANDS_MPS = 0.05
 EVERY = 4
 """So many beams are enough to see that all have jumped."""
 
@@ -23,8 +25,9 @@ class Scans:
     """By how much all its ranges have jumped so far."""
     looked_ns: int = 0
 
-    def wrong(self, scan: LidarScan, speed_mps: float) -> str | None:
+    def wrong(self, scan: LidarScan, ego: Ego) -> str | None:
         """Why a scan is implausible, or nothing; None where it is not looked at closely."""
+        speed_mps = ego.speed_mps
         p, before, past_ns = self.parameters, self.range_m, self.time_ns
         self.range_m, self.time_ns = scan.range_m, scan.time_ns
         if before is None:
@@ -38,20 +41,26 @@ class Scans:
             return "frozen" if np.count_nonzero(before < NO_RETURN_M) >= p.least else None
         if abs(self.shift_m) > p.jump_m:
             return f"all its ranges changed by {self.shift_m:.1f} m"
-        steady = steadiness(before, scan.range_m, p)
+        if ego.rocking_radps > p.rocking_radps:  # over a bump: beams sweep the ground
+            return None
+        stands = abs(speed_mps) < STANDS_MPS  # so what is far away looks the same, too
+        steady = steadiness(before, scan.range_m, NO_RETURN_M if stands else p.near_m, p)
         if steady is None:
             return None
         return "noisy" if steady < p.steady_share else ""
 
 
-def steadiness(before_m: Floats, range_m: Floats, p: ScanParameters) -> float | None:
-    """The share of near beams whose range changes as their neighbour's from scan to scan.
+def steadiness(
+    before_m: Floats, range_m: Floats, near_m: float, p: ScanParameters
+) -> float | None:
+    """The share of beams nearer than `near_m` whose range changes as their neighbour's from scan to
+    scan.
 
     Of the world it is large: what one beam sees come nearer, so does its neighbour, and edges and
     rough ground look the same a scan later. Dust and leaves, which some beams pass, leave a half or
     a third of it, noise an eighth. None where too few are near.
     """
-    near = (before_m < p.near_m) & (range_m < p.near_m)
+    near = (before_m < near_m) & (range_m < near_m)
     pair = near[:-1] & near[1:]
     count = np.count_nonzero(pair)
     if count < p.least:

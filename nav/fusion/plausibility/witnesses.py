@@ -22,6 +22,11 @@ class Ego(Protocol):
         """Signed."""
         ...
 
+    @property
+    def rocking_radps(self) -> float:
+        """How fast the vehicle rolls and pitches."""
+        ...
+
     def antenna_gap_m(self, fix: GpsFix) -> tuple[float, float]:
         """How far a fix is from where the antenna is believed to be, and the standard deviation of
         that belief, [m]."""
