@@ -1,5 +1,6 @@
 """The server of a page: where it listens, and what it says of that."""
 
+import logging
 import socket
 from collections.abc import Iterator
 from contextlib import contextmanager, redirect_stdout
@@ -21,6 +22,8 @@ def opened(host: str, port: int | None) -> Iterator[viser.ViserServer]:
         UsageError: the port is taken or no port, or there is no such address.
     """
     free = free_port(host, port)
+    # a browser that opens a connection and asks nothing is no error of which one wants a traceback
+    logging.getLogger("websockets").setLevel(logging.CRITICAL)
     with redirect_stdout(StringIO()):  # it says more than one wants to know
         server = viser.ViserServer(host, free, verbose=False)
     try:
