@@ -336,6 +336,20 @@ def test_one_sensor_may_be_missing(mute):
     assert np.abs(log.heading_rad[late]).max() < np.radians(3.0)
 
 
+def test_wheels_that_fall_silent_as_it_brakes_leave_no_acceleration_behind():
+    def plan(second):
+        return max(min(4.0, 4.0 - 2.0 * (second - 20.0)), 0.0) if second > 3.0 else 0.0, 0.0
+
+    def silence(second, sensors, truth):
+        del truth
+        sensors.mute = ("wheels",) if second > 21.0 else ()
+
+    log = run(Sensors(7), 120, plan, script=silence)
+    standing = log.second > 60.0
+    assert abs(np.mean(log.speed_mps[standing])) < 0.005
+    assert np.abs(log.ahead_m[standing]).max() < 0.5
+
+
 def test_without_gps_it_is_never_ready():
     ego = EgoState(PARAMETERS, VEHICLE, FRAME)
     assert run(Sensors(mute=("gps",)), 20, ego=ego).estimates == []

@@ -51,6 +51,8 @@ COMPASS = row((COMPASS_BIAS, 1.0), (HEADING, 1.0))
 """What is measured, whatever the state."""
 ACCELERATION_S = 0.2
 """Time constant of the acceleration that carries the speed back to a delayed fix."""
+WHEELS_SILENT_S = 0.5
+"""Wheels that have been silent for longer tell of no acceleration."""
 
 
 @dataclass
@@ -65,14 +67,19 @@ class _Last:
     fix: GpsFix | None = None
     direction: float = 1.0
     """-1 when the gear says that the wheels turn backwards."""
-    acceleration_mps2: float = 0.0
+    _acceleration_mps2: float = 0.0
+
+    def acceleration_mps2(self, time_ns: int) -> float:
+        """Smoothed; wheels that are silent tell of none."""
+        since_s = (time_ns - self.wheels_ns) * 1e-9 if self.wheels_ns is not None else math.inf
+        return self._acceleration_mps2 if since_s < WHEELS_SILENT_S else 0.0
 
     def accelerate(self, time_ns: int, speed_mps: float) -> None:
         """Take a new speed into the smoothed acceleration."""
         if self.wheels_ns is not None and time_ns > self.wheels_ns:
             dt = (time_ns - self.wheels_ns) * 1e-9
-            change = (speed_mps - self.speed_mps) / dt - self.acceleration_mps2
-            self.acceleration_mps2 += change * min(dt / ACCELERATION_S, 1.0)
+            change = (speed_mps - self.speed_mps) / dt - self._acceleration_mps2
+            self._acceleration_mps2 += change * min(dt / ACCELERATION_S, 1.0)
         self.wheels_ns, self.speed_mps = time_ns, speed_mps
 
 
@@ -223,7 +230,8 @@ class EgoState:
         if self._start is None and self._last.imu_ns is not None:
             sideward = float(self.filter.state[SPEED]) * heading_rate(measured)
             dt_s = (time_ns - self._last.imu_ns) * 1e-9
-            self._erection.follow(sideward, self._last.acceleration_mps2, dt_s)
+            ahead = self._last.acceleration_mps2(time_ns)
+            self._erection.follow(sideward, ahead, dt_s)
         return Attitude(
             measured.roll_rad - self._erection.roll_rad,
             measured.pitch_rad - self._erection.pitch_rad,
@@ -293,7 +301,7 @@ class EgoState:
         age = (self._time_ns - time_ns) * 1e-9
         pose = self._pose(time_ns, attitude)
         level_speed = self._drive.cos_pitch * float(self.filter.state[SPEED])
-        speed = level_speed - self._last.acceleration_mps2 * age
+        speed = level_speed - self._last.acceleration_mps2(self._time_ns) * age
         return ego_gps.Past(pose.x_m, pose.y_m, pose.heading_rad, speed, attitude, age)
 
     def _take_compass(self, compass: CompassHeading) -> None:
