@@ -27,8 +27,16 @@ def test_who_speaks_is_well():
 def test_who_is_silent_fails_and_recovers():
     m = monitor()
     at(m, 0.0)
-    assert at(m, 2.0, lidar=1.9, gps=0.5) == Health(failed=("gps",), unfit="gps")
+    assert at(m, 2.0, lidar=0.5, gps=1.9) == Health(failed=("lidar",))
     assert at(m, 3.0, lidar=2.9, gps=2.9) == Health()
+
+
+def test_what_it_cannot_drive_without_must_be_steady_before_it_is_trusted_again():
+    m = monitor()
+    at(m, 0.0)
+    assert at(m, 2.0, lidar=1.9, gps=0.5) == Health(failed=("gps",), unfit="gps")
+    assert at(m, 3.0, lidar=2.9, gps=2.9).unfit == "gps"
+    assert at(m, 33.0, lidar=32.9, gps=32.9) == Health()
 
 
 def test_who_never_spoke_fails_too():

@@ -55,7 +55,7 @@ def message(kind, time_ns, rng):
     noise = rng.standard_normal(361)
     return {
         LidarScan: lambda: LidarScan(time_ns, "lidar_roof", wall + 0.006 * noise),
-        SonarScan: lambda: SonarScan(time_ns, 2.0 + 0.01 * noise[:8]),
+        SonarScan: lambda: SonarScan(time_ns, [4.0, 4.0, *(2.0 + 0.01 * noise[:6])]),
         RadarTracks: lambda: RadarTracks(time_ns, 30.0 + noise[:2], noise[:2], noise[:2]),
         GpsFix: lambda: GpsFix(
             time_ns, GpsQuality.CONVERGED, 8, 0.1 * noise[0] / DEGREE_M,
@@ -101,6 +101,22 @@ def test_a_spoiled_sensor_is_doubted_and_believed_again(kind, how):
     assert len(monitor.doubted) == 1
     drive(kind, 8.0, monitor=monitor, from_s=14.5)
     assert monitor.doubted == {}
+
+
+def test_noisy_sonars_are_doubted_and_believed_again():
+    monitor, rng = warm(SonarScan), np.random.default_rng(1)
+    drive(SonarScan, 2.5, lambda m: spoiled(m, "noisy", None, rng), monitor)
+    assert monitor.doubted == {"sonar": "noisy"}
+    drive(SonarScan, 8.0, monitor=monitor, from_s=14.5)
+    assert monitor.doubted == {}
+
+
+def test_one_sonar_may_pass_from_thing_to_thing():
+    def posts(scan):
+        near = round(scan.time_ns * 20e-9) % 2 == 0
+        return replace(scan, range_m=[1.0 if near else 2.0, *scan.range_m[1:]])
+
+    assert drive(SonarScan, 2.5, posts, warm(SonarScan)).doubted == {}
 
 
 @pytest.mark.parametrize("kind", [*KINDS, SonarScan, RadarTracks])

@@ -79,8 +79,9 @@ class HealthMonitor:
             del self._failed_ns[name]
 
     def _steady(self, name: str, time_ns: int) -> bool:
-        """Whether one that speaks again is to be trusted: at once, but for one that often fails."""
-        if not self._unsteady(name):
+        """Whether one that speaks again is to be trusted: at once, but for one that often fails, or
+        that the vehicle cannot drive without."""
+        if name not in self.parameters.vital and not self._unsteady(name):
             return True
         if time_ns - self._bad_ns[name] < self.parameters.steady_s * 1e9:
             return False

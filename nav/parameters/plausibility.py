@@ -75,3 +75,7 @@ class PlausibilityParameters:
     """At a stand."""
     steady_rad: float
     """Steering that moves more within half a second gives no yaw rate to compare with."""
+    sonar_step_m: float
+    """Half of the sonars do not jump so far from round to round, beside ..."""
+    sonar_round_s: float
+    """... what the vehicle drives in so long."""

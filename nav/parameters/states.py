@@ -38,7 +38,7 @@ class HealthParameters:
     often_s: float
     """... within this, it is given up at once ..."""
     steady_s: float
-    """... until it has been good for so long."""
+    """... until it has been good for so long; and so must be what is vital before it is trusted."""
 
 
 @dataclass(frozen=True)

@@ -21,6 +21,8 @@ from nav.parameters.plausibility import PlausibilityParameters
 
 STEADY_S = 0.5
 FROZEN = "frozen"
+LEAST_SONARS = 2
+"""One alone may pass from thing to thing."""
 TURNING_MPS = 0.1
 """Wheels that stand may say so again and again."""
 
@@ -149,18 +151,34 @@ class Ranges:
 
     parameters: PlausibilityParameters
     repeats: Repeats
+    range_m: Floats | None = None
+    """Of the sonars."""
 
     def wrong(self, echoes: SonarScan | RadarTracks, ego: Ego, others: Witnesses) -> str | None:
         """See the module."""
         del others
         range_m = echoes.range_m
         again = self.repeats.again(range_m)
+        if isinstance(echoes, SonarScan) and self._jump(echoes, ego):
+            return "noisy"
         sees = range_m.size > 0 and float(range_m.min()) < float(range_m.max())
         if not sees:
             return None
         if again:
             return FROZEN if abs(ego.speed_mps) > self.parameters.moving_mps else None
         return ""
+
+    def _jump(self, echoes: SonarScan, ego: Ego) -> bool:
+        """Whether half of those that hear something, two at least, have jumped since last time."""
+        p, before, range_m = self.parameters, self.range_m, echoes.range_m
+        self.range_m = range_m
+        if before is None:
+            return False
+        near = (range_m < range_m.max()) & (before < before.max())  # the farthest hears nothing
+        step_m = p.sonar_step_m + p.sonar_round_s * abs(ego.speed_mps)
+        jumped = near & (np.abs(range_m - before) > step_m)
+        count = int(np.count_nonzero(jumped))
+        return count >= LEAST_SONARS and 2 * count >= int(np.count_nonzero(near))
 
 
 def _middle(wheels: Floats) -> float:

@@ -3,7 +3,7 @@
 from dataclasses import dataclass
 from typing import Protocol
 
-from nav.messages import GpsFix, VehicleState
+from nav.messages import GpsFix, GpsQuality, VehicleState
 
 FRESH_NS = 200_000_000
 """Older words are no witness."""
@@ -49,8 +49,11 @@ class Witnesses:
     state: VehicleState | None = None
 
     def fix_at(self, time_ns: int) -> GpsFix | None:
-        """The last fix, if it is fresh."""
-        return self.fix if self.fix and time_ns - self.fix.time_ns < FRESH_NS else None
+        """The last fix, if it is fresh and one at all."""
+        fix = self.fix
+        if fix is None or fix.quality is GpsQuality.NONE or time_ns - fix.time_ns >= FRESH_NS:
+            return None
+        return fix
 
     def state_at(self, time_ns: int) -> VehicleState | None:
         """The last word of the drive-by-wire unit, if it is fresh."""
