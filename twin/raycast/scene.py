@@ -22,6 +22,14 @@ class Scene:
 
     def __init__(self, obstacles: Sequence[Obstacle]) -> None:
         """Take the solids; `set_ground` must follow before the first ray."""
+        self.set_solids(obstacles)
+
+    def set_solids(self, obstacles: Sequence[Obstacle]) -> None:
+        """Replace the solids; `set_ground` must follow before the next ray.
+
+        Raises:
+            ValueError: a shape that is neither box nor cylinder.
+        """
         self._solids = _solids(obstacles)
 
     def set_ground(self, z: Floats, x0: float, y0: float, spacing: float) -> None:

@@ -19,6 +19,7 @@ class Iron:
     """
 
     def __init__(self, obstacles: Sequence[Obstacle], p: CompassParameters) -> None:
+        self.things = obstacles
         steel = [o for o in obstacles if o.kind in METAL]
         self._p = p
         self._middle = np.array([o.center_m for o in steel]).reshape(-1, 3)

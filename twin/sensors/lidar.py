@@ -4,6 +4,8 @@ The mirror turns twice for a scan: whole degrees first, then the halves in betwe
 bears the time of the last beam; the vehicle has moved since the first.
 """
 
+from math import sqrt
+
 import numpy as np
 from numba import njit
 from numpy.typing import NDArray
@@ -12,7 +14,7 @@ from nav.messages import LIDAR_COUNT_M, LIDAR_NO_RETURN_COUNT, LidarScan, lidar_
 from twin.raycast import cast_hits
 from twin.sensors.parameters import LidarParameters, MountingParameters
 from twin.sensors.sensor import Floats, View, draw_mounting, generator, schedule
-from twin.sensors.sight import Rays, Sight
+from twin.sensors.sight import ByKind, Rays, Sight
 
 _ALONG_X = np.array([[1.0, 0.0, 0.0]])
 """Each beam has a frame of its own and looks along its x axis."""
@@ -36,13 +38,13 @@ class Lidar:
         self._mounting = draw_mounting(self._rng, mounting)
         self._bias_m = p.bias_sd_m * self._rng.standard_normal()
         self._fan, self._age_s = _fan(p), _age_s(p)
-        self._reach_m = _reach_m(p, [thing.kind for thing in sight.things])
+        self._reach_m = _reach_m(p, sight)
 
     def measure(self, view: View, time_ns: int) -> LidarScan:
         """The scan whose last beam is of this instant."""
         p, rays = self._p, self._rays(view)
         true_m, what = cast_hits(self._sight.solid, *rays[:2], p.max_range_m, rays.rotations)
-        true_m[true_m > self._reach_m[what]] = p.max_range_m
+        true_m[true_m > self._reach_m.of(what)] = p.max_range_m
         edge = self._edges.random(p.beams)
         seen_m = _mixed(true_m[:, 0], edge, p.beam_rad / _step_rad(p), p.edge_m, p.pulse_m, p.share)
         if self._sight.veil:  # what leaves hold back is told of whole beams, however wide
@@ -140,11 +142,10 @@ def _age_s(p: LidarParameters) -> Floats:
     return (mirror_rad.max() - mirror_rad) / (2.0 * np.pi) * p.turn_s
 
 
-def _reach_m(p: LidarParameters, kinds: list[str]) -> Floats:
-    """Up to where each thing is seen (n,), then what the last indices stand for: nothing, ground.
+def _reach_m(p: LidarParameters, sight: Sight) -> ByKind:
+    """Up to where each thing is seen.
 
     An echo weakens with the square of the distance, and as the thing reflects less.
     """
-    known = [p.reflectivity.get(kind, p.reflectivity["other"]) for kind in kinds]
-    reflectivity = np.array([*known, 1.0, p.reflectivity["ground"]])
-    return p.tenth_range_m * np.sqrt(reflectivity / 0.1)
+    reach = {kind: p.tenth_range_m * sqrt(r / 0.1) for kind, r in p.reflectivity.items()}
+    return ByKind(sight, reach, reach["other"], reach["ground"], p.tenth_range_m * sqrt(10.0))

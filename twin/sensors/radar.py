@@ -7,7 +7,7 @@ from nav.messages import RadarTracks
 from twin.raycast import cast_hits
 from twin.sensors.parameters import MountingParameters, RadarParameters
 from twin.sensors.sensor import Bools, Floats, Ints, View, draw_mounting, generator, schedule
-from twin.sensors.sight import Sight
+from twin.sensors.sight import ByKind, Sight
 from twin.world import SOFT
 
 
@@ -29,8 +29,7 @@ class Radar:
         self.schedule = schedule(p)
         self._p = p
         self._scene = sight.solid
-        self._heard = np.array([thing.kind not in SOFT for thing in sight.things] + 2 * [False])
-        """By index of the thing; the last two are for GROUND and NO_HIT, which are negative."""
+        self._heard = ByKind(sight, dict.fromkeys(SOFT, False), True, False, False)
         self._rng = generator(seed, self.name)
         self._mounting = draw_mounting(self._rng, mounting)
         self._beam = _beam(p)
@@ -44,7 +43,7 @@ class Radar:
         p, (position, rotation) = self._p, self._mounting.pose(view, self.name)
         origin, turn = position[None], rotation[None]
         range_m, what = cast_hits(self._scene, origin, self._beam, p.max_range_m, turn)
-        velocity, heard = view.site_velocity(self.name)[0] @ rotation, self._heard[what[0]]
+        velocity, heard = view.site_velocity(self.name)[0] @ rotation, self._heard.of(what[0])
         true = _tracks(
             range_m[0], what[0], heard, self._beam, velocity, p.min_rate_mps, p.max_tracks
         )

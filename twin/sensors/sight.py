@@ -1,12 +1,15 @@
 """What beams meet: what is solid, and what they can pass: brush, and phantoms of one scanner."""
 
-from typing import NamedTuple
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
+from typing import Any, NamedTuple
 
 import numpy as np
+from numpy.typing import NDArray
 
 from twin.raycast import Scene, cast_hits
-from twin.sensors.sensor import Floats
-from twin.world import OPACITY, SILENT, World
+from twin.sensors.sensor import Floats, Ints
+from twin.world import OPACITY, SILENT, Obstacle, World
 
 
 class Rays(NamedTuple):
@@ -23,9 +26,10 @@ class Rays(NamedTuple):
 class Veil:
     """A scene of its own, looked at after what is solid."""
 
-    def __init__(self, world: World) -> None:
-        self._things = [o for o in world.obstacles if o.kind in OPACITY]
-        self.scene = Scene(self._things)
+    def __init__(self, things: Sequence[Obstacle]) -> None:
+        self._things = things
+        self.scene = Scene(things)
+        self._opacities: dict[str, Floats] = {}
 
     def hide(
         self, range_m: Floats, rays: Rays, max_range_m: float, sensor: str, drawn: Floats | float
@@ -41,7 +45,10 @@ class Veil:
                 the thing's opacity.
         """
         veiled_m, what = cast_hits(self.scene, *rays[:2], max_range_m, rays.rotations)
-        opacity = self._opacity(sensor)[np.maximum(what, 0)]
+        opacity = self._opacities.get(sensor)
+        if opacity is None:
+            opacity = self._opacities[sensor] = self._opacity(sensor)
+        opacity = opacity[np.maximum(what, 0)]
         held = (what >= 0) & (veiled_m < range_m) & (drawn < opacity)
         return np.where(held, veiled_m, range_m)
 
@@ -55,14 +62,19 @@ class Veil:
 
 
 class Sight:
-    """All that beams can meet. The ground is replaced as the vehicle moves."""
+    """All that beams can meet. Things and ground are replaced as the vehicle moves."""
 
     def __init__(self, world: World) -> None:
-        self.things = [o for o in world.obstacles if o.kind not in OPACITY]
+        self.solid = Scene(())
+        self.show(world.obstacles)
+
+    def show(self, obstacles: Sequence[Obstacle]) -> None:
+        """Replace the things; `set_ground` must follow before the next ray."""
+        self.things = tuple(o for o in obstacles if o.kind not in OPACITY)
         """What is solid, as `cast_hits` numbers it."""
-        self.solid = Scene(self.things)
-        hides = any(o.kind in OPACITY for o in world.obstacles)
-        self.veil = Veil(world) if hides else None
+        self.solid.set_solids(self.things)
+        veiling = tuple(o for o in obstacles if o.kind in OPACITY)
+        self.veil = Veil(veiling) if veiling else None
         """None where everything is solid."""
 
     def set_ground(self, z: Floats, x0: float, y0: float, spacing: float) -> None:
@@ -70,3 +82,25 @@ class Sight:
         self.solid.set_ground(z, x0, y0, spacing)
         if self.veil:
             self.veil.scene.set_ground(z, x0, y0, spacing)
+
+
+@dataclass
+class ByKind:
+    """A value for each thing in sight, by its kind; and for the ground, and where nothing is."""
+
+    sight: Sight
+    values: Mapping[str, Any]
+    other: Any
+    """Of kinds that `values` leaves out."""
+    ground: Any
+    nothing: Any
+    _things: tuple[Obstacle, ...] | None = None
+    _value: NDArray[Any] = field(default_factory=lambda: np.empty(0))
+
+    def of(self, what: Ints) -> NDArray[Any]:
+        """The values of what `cast_hits` says was hit, any shape."""
+        if self._things is not self.sight.things:
+            self._things = self.sight.things
+            known = [self.values.get(thing.kind, self.other) for thing in self._things]
+            self._value = np.array([*known, self.nothing, self.ground])  # NO_HIT and GROUND are
+        return self._value[what]  # negative

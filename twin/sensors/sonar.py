@@ -7,7 +7,7 @@ from nav.messages import SonarScan
 from twin.raycast import GROUND, cast_hits
 from twin.sensors.parameters import MountingParameters, SonarParameters
 from twin.sensors.sensor import Floats, Ints, View, draw_mounting, generator, schedule
-from twin.sensors.sight import Rays, Sight
+from twin.sensors.sight import ByKind, Rays, Sight
 
 SMOOTH = frozenset({"car", "tunnel", "gate_flank"})
 """Kinds of thing with smooth faces."""
@@ -33,8 +33,7 @@ class Sonar:
         self._scene = sight.solid
         self._rng = generator(seed, self.name)
         self._cross = generator(seed, f"{self.name} cross-talk")
-        self._smooth = np.array([t.kind in SMOOTH for t in sight.things] + 2 * [False])
-        """By index of the thing; the last two are for GROUND and NO_HIT, which are negative."""
+        self._smooth = ByKind(sight, dict.fromkeys(SMOOTH, True), False, False, False)
         self._mountings = {unit: draw_mounting(self._rng, mounting) for unit in p.units}
         self._cone = _cone(p.half_cone_rad)
 
@@ -73,7 +72,7 @@ class Sonar:
     def _mirror(self, range_m: Floats, what: Ints) -> None:
         """Take away what smooth faces mirror: where a whole cone, ranges (n, 7), meets one thing,
         the ranges across it say at which angle."""
-        one = self._smooth[what].all(axis=1) & (what == what[:, :1]).all(axis=1)
+        one = self._smooth.of(what).all(axis=1) & (what == what[:, :1]).all(axis=1)
         for unit in np.flatnonzero(one):
             axis_m, rim_m = range_m[unit, 0], range_m[unit, 1:]
             across = (rim_m[:3] - rim_m[3:]) / (2.0 * axis_m * np.sin(self._p.half_cone_rad))

@@ -82,7 +82,7 @@ def _sensors(world: World, sight: Sight, seed: int, p: SensorParameters) -> list
         *([Radar(sight, seed, p.radar, p.mounting)] if p.radar else []),
         Gps(world, sight.solid, seed, p.gps, p.mounting),
         Imu(seed, p.imu),
-        Compass(seed, p.compass, world.obstacles),
+        Compass(seed, p.compass, sight),
         Odometry(seed, p.odometry),
         *([RoadCamera(world.road, seed, p.road_camera)] if world.road and p.road_camera else []),
     ]
