@@ -48,7 +48,7 @@ def draw_scene(axes: Axes, scene: Scene, detail: bool) -> LineCollection:
     """Draw all layers; a detail with stronger lines. Returns the trajectory, for a colour bar."""
     course = scene.course
     draw_corridor(axes, course.waypoint_m, course.half_width_m, EDGE_LENGTHS * scene.length_m)
-    draw_obstacles(axes, course.world.obstacles)
+    draw_obstacles(axes, course.world.everything())
     size = 1.6 if detail else 0.7
     axes.plot(*scene.cells_m.T, "s", color=SEEN, markersize=size, markeredgewidth=0, zorder=4)
     for k, gate in enumerate(scene.course.gates):

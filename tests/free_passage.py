@@ -69,7 +69,7 @@ def free_width_m(course: Course) -> np.ndarray:
     """The widest free interval across the corridor at each sample of the route line, shape (n,)."""
     point, direction, width = samples(course)
     taken: list[list[tuple[float, float]]] = [[] for _ in point]
-    for obstacle in course.world.obstacles:
+    for obstacle in course.world.everything():
         if stands_in_the_way(obstacle, course):
             for k, low, high in _crossings(corners_m(obstacle)[:, :2], point, direction, width):
                 taken[k].append((low, high))

@@ -53,31 +53,31 @@ def test_things_leave_a_way(seed):
 
 def test_things_reach_into_the_corridor_and_some_stand_outside():
     c = build(straight_route(40), "r.txt", None, None, 1)
-    near = np.array([np.abs(lateral_m(corners_m(o)[:, :2], c)).min() for o in c.world.obstacles])
+    near = np.array([np.abs(lateral_m(corners_m(o)[:, :2], c)).min() for o in c.world.everything()])
     assert 3 <= (near < 12 * 0.3048 - 0.05).sum() < 0.3 * len(near)
     assert len(near) > 80
 
 
 def test_where_the_corridor_is_narrow_nothing_reaches_in():
     c = build(straight_route(40, half_width_ft=4.8), "r.txt", None, None, 1)
-    near = [np.abs(lateral_m(corners_m(o)[:, :2], c)).min() for o in c.world.obstacles]
+    near = [np.abs(lateral_m(corners_m(o)[:, :2], c)).min() for o in c.world.everything()]
     assert min(near) >= 4.8 * 0.3048
 
 
 def test_the_start_is_clear():
     c = build(straight_route(), "r.txt", None, None, 2)
-    assert min(np.hypot(*o.center_m[:2]) for o in c.world.obstacles) > 20.0
+    assert min(np.hypot(*o.center_m[:2]) for o in c.world.everything()) > 20.0
 
 
 def test_same_seed_same_bits_and_another_seed_another_course():
     one, same, other = (build(straight_route(), "r.txt", None, None, s) for s in (3, 3, 4))
     assert pickle.dumps(one) == pickle.dumps(same)
-    assert one.world.obstacles != other.world.obstacles
+    assert one.world.everything() != other.world.everything()
     assert one.world.friction != other.world.friction
 
 
 def test_names_are_unique():
-    names = [o.name for o in build(straight_route(40), "r.txt", None, None, 5).world.obstacles]
+    names = [o.name for o in build(straight_route(40), "r.txt", None, None, 5).world.everything()]
     assert len(names) == len(set(names))
 
 
@@ -91,5 +91,5 @@ def test_the_real_stretch():
     text = REAL.read_text()
     c = build(text, REAL.name, 2053, 2120, 0)
     assert len(c.waypoint_m) == 68
-    assert len(c.world.obstacles) > 200
+    assert len(c.world.everything()) > 200
     assert free_width_m(c).min() >= 2.89

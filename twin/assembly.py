@@ -3,6 +3,7 @@
 import mujoco
 
 import models
+from twin import pool
 from twin.terrain import Z_TOP_M, TerrainWindow
 from twin.world import OPACITY, SOFT, Obstacle, World
 
@@ -29,6 +30,8 @@ def compile(world: World, window: TerrainWindow, vehicle: str = models.RANGER) -
     _add_ground(spec, window, world.friction)
     for obstacle in world.obstacles:
         _add_obstacle(spec, obstacle, world.friction)
+    if world.scenery:
+        _add_pool(spec, world.friction)
     model = spec.compile()
     window.write_heights(model)
     return model
@@ -70,6 +73,18 @@ def _add_obstacle(spec: mujoco.MjSpec, obstacle: Obstacle, friction: float) -> N
         conaffinity=touches,
         rgba=COLORS.get(obstacle.kind, COLORS[""]),
     )
+
+
+def _add_pool(spec: mujoco.MjSpec, friction: float) -> None:
+    """As tall as wide: then the axes of inertia, in which MuJoCo keeps the bounds, are the geoms."""
+    for shape, count in pool.COUNT.items():
+        for k in range(count):
+            name = pool.name(shape, k)
+            body = spec.worldbody.add_body(name=name, mocap=True, pos=[0.0, 0.0, pool.PARKED_M])
+            body.add_geom(
+                name=name, type=SHAPES[shape], size=[1.0, 1.0, 1.0],
+                friction=_sliding(friction), group=OBSTACLE_GROUP, rgba=COLORS[""],
+            )  # fmt: skip
 
 
 def _sliding(friction: float) -> list[float]:

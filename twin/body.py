@@ -15,8 +15,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from nav.messages import ActuatorTargets
-from twin import clock
+from twin import clock, pool
+from twin.pool import Pool
 from twin.truth import Applied, Truth
+from twin.world import SOFT, Obstacle
 
 Floats = NDArray[np.float64]
 Start = tuple[float, float, float, float]
@@ -93,6 +95,7 @@ class Body(ABC):
         self._kind, self._owner = _geoms(model, owners, self._at.body)
         self._touched: dict[str, None] = {}
         self.data = mujoco.MjData(model)
+        self._pool = Pool(model) if pool.is_in(model) else None
         self._place(start)
 
     def _place(self, start: Start) -> None:
@@ -109,6 +112,16 @@ class Body(ABC):
         dist = self.data.contact.dist
         self.data.qpos[self._at.free_qpos + 2] += max(0.0, -dist.min()) if len(dist) else 0.0
         mujoco.mj_forward(self.model, self.data)
+
+    def surround(self, things: Sequence[Obstacle]) -> None:
+        """Take what is around; where it streams past, it does not stand in the model yet."""
+        if self._pool is None:
+            return
+        x, y, _ = self.data.xpos[self._at.body].tolist()
+        for geom, thing in self._pool.place(self.model, self.data, things, (x, y)).items():
+            soft = thing is None or thing.kind in SOFT
+            self._kind[geom] = _SOFT if soft else _OBSTACLE
+            self._owner[geom] = "" if thing is None else thing.owner or thing.name
 
     # ------------------------------------------------------------ driving
 

@@ -19,8 +19,7 @@ FULL_MPS = 0.3
 class Brush:
     """Where bushes stand, and what they do."""
 
-    def __init__(self, obstacles: Sequence[Obstacle]) -> None:
-        bushes = [o for o in obstacles if o.kind == "brush"]
+    def __init__(self, bushes: Sequence[Obstacle]) -> None:
         self._place = np.array([o.center_m[:2] for o in bushes]).reshape(-1, 2)
         self._half = np.array([o.half_size_m[:2] for o in bushes]).reshape(-1, 2)
 

@@ -1,6 +1,6 @@
 """The vehicle in motion: shim, drivetrain and MuJoCo, one physics step at a time."""
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from math import hypot
 
 import mujoco
@@ -16,6 +16,7 @@ from twin.faults import Faults
 from twin.linkage import Gearbox, GearboxParameters
 from twin.truth import Applied
 from twin.vehicle import SIDES, WHEELS, ackermann, actuators, linkage, tire_contact, tire_geoms
+from twin.world import Obstacle
 
 _SPEED_LEVEL_MPS = 0.05
 
@@ -57,10 +58,15 @@ class Plant(Body):
             Gearbox(gearbox or GearboxParameters(), rng, gear),
             CONTROL_S,
         )
-        self.brush: Brush | None = None
-        """What grows where the vehicle drives."""
+        self._brush: Brush | None = None
         self._brake = -1.0
         self._level = -1
+
+    def surround(self, things: Sequence[Obstacle]) -> None:
+        """See `Body`; brush holds the vehicle back."""
+        super().surround(things)
+        bushes = [o for o in things if o.kind == "brush"]
+        self._brush = Brush(bushes) if bushes else None
 
     def fail(self, faults: Faults) -> None:
         """Let what fails among the actuators fail."""
@@ -118,7 +124,7 @@ class Plant(Body):
         speed = hypot(vx, vy, vz)
         scale = -self._drivetrain.drag_n_s2_m2 * speed
         force = scale * vx, scale * vy, scale * vz
-        if self.brush:
+        if self._brush:
             x, y, _ = self.data.site_xpos[self._at.site["imu"]].tolist()
-            force = resisted(force, velocity, self.brush.drag_n(x, y, speed))
+            force = resisted(force, velocity, self._brush.drag_n(x, y, speed))
         self.data.xfrc_applied[self._at.body, :3] = force

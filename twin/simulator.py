@@ -10,7 +10,6 @@ import models
 from nav.messages import ActuatorTargets, SensorMessage
 from twin import assembly, clock
 from twin.body import Body, Start
-from twin.brush import Brush
 from twin.faults import Faults
 from twin.plant import Plant
 from twin.sensors.parameters import SensorParameters, sensor_parameters
@@ -51,12 +50,10 @@ class Simulator:
         x, y, heading = world.start
         self.window = TerrainWindow(world.terrain, x, y)
         model = assembly.compile(world, self.window, kind.model)
-        self.sight = Sight(world)
-        self._see_ground()
+        self._world, self.sight = world, Sight(world)
         ground = float(world.terrain.height(np.array([x]), np.array([y]))[0])
         self.plant = kind.plant(model, (x, y, ground, heading), seed, assembly.owners(world))
-        if isinstance(self.plant, Plant) and any(o.kind == "brush" for o in world.obstacles):
-            self.plant.brush = Brush(world.obstacles)
+        self._look_around(x, y)
         self.faults = Faults(world.faults, seed)
         if isinstance(self.plant, Plant):
             self.plant.fail(self.faults)
@@ -92,8 +89,11 @@ class Simulator:
         x, y, _ = self.plant.site_pose("reference")[0]
         if self.window.recenter(float(x), float(y)):
             self.window.write_hfield(self.plant.model, self.plant.data)
-            self._see_ground()
+            self._look_around(float(x), float(y))
 
-    def _see_ground(self) -> None:
-        w = self.window
+    def _look_around(self, x: float, y: float) -> None:
+        """Let sensors and vehicle meet what is around a place."""
+        things, w = self._world.around(x, y), self.window
+        self.sight.show(things)
+        self.plant.surround(things)
         self.sight.set_ground(w.z, w.x0, w.y0, w.spacing)

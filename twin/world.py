@@ -12,12 +12,28 @@ Floats = NDArray[np.float64]
 
 OPACITY = {"brush": 0.5, "grass": 0.35, "dust": 0.15, "phantom": 1.0}
 """Kinds of obstacle that hold nothing back but beams, and the share of beams (estimated)."""
+SIGHT_M = 110.0
+"""Nothing is seen or touched from farther away: the corners of the window of ground are 127 m off,
+but a LIDAR sees 82 m, from at most 12 m beside the window's middle."""
 SILENT = frozenset({"dust"})
 """Kinds that sound passes."""
 METAL = frozenset({"car", "tunnel", "tank_trap"})
 """Kinds of steel: they turn a compass."""
 SOFT = frozenset({"rumble_strip", *OPACITY})
 """Kinds of obstacle that a vehicle may touch."""
+
+
+class Scenery(Protocol):
+    """What stands along a way that is too long to hold all of it: a pure function of position."""
+
+    def around(self, x_m: float, y_m: float) -> "tuple[Obstacle, ...]":
+        """All that stands within `SIGHT_M` of a place, and perhaps more; the same object as the
+        last time where nothing has come or gone."""
+        ...
+
+    def everything(self) -> "tuple[Obstacle, ...]":
+        """For pictures."""
+        ...
 
 
 class Terrain(Protocol):
@@ -67,6 +83,7 @@ class World:
 
     terrain: Terrain
     obstacles: tuple[Obstacle, ...]
+    """All that stands there; none where there is a `scenery`."""
     friction: float
     """Coefficient of the ground."""
     anchor: tuple[float, float]
@@ -77,3 +94,13 @@ class World:
     """Shape (n, 2): azimuth counter-clockwise from east and elevation, [rad]."""
     faults: tuple[Fault, ...] = ()
     road: Road | None = None
+    scenery: Scenery | None = None
+
+    def around(self, x_m: float, y_m: float) -> tuple[Obstacle, ...]:
+        """All that can be seen or touched from near a place; the same object as the last time where
+        nothing has come or gone."""
+        return self.scenery.around(x_m, y_m) if self.scenery else self.obstacles
+
+    def everything(self) -> tuple[Obstacle, ...]:
+        """All that stands anywhere."""
+        return self.scenery.everything() if self.scenery else self.obstacles

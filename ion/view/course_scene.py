@@ -35,7 +35,7 @@ def draw_course(scene: viser.SceneApi, course: Course, places: Places) -> None:
     _draw_edges(scene, course, places)
     path = places.of_route(route_path(course).position_m, ABOVE_M)
     lines(scene, "/route/smooth_path", segments(path), QUIET, 2.0)
-    draw_obstacles(scene, course.world.obstacles)
+    draw_obstacles(scene, course.world.everything())
 
 
 def draw_gates(

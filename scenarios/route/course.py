@@ -6,7 +6,7 @@ import numpy as np
 
 from nav.route import rddf
 from scenarios.course import Course, Floats, route_points_m
-from scenarios.route.roadside import obstacles
+from scenarios.route.roadside import scenery
 from scenarios.things import generator
 from twin.terrain import Octave, RollingGround
 from twin.world import World
@@ -45,11 +45,12 @@ def build(text: str, name: str, first: int | None, last: int | None, seed: int) 
     ground = RollingGround(seed, DESERT)
     world = World(
         terrain=ground,
-        obstacles=obstacles(seed, ground, waypoint_m, route.half_width_m),
+        obstacles=(),
         friction=float(generator(seed, "friction").uniform(*FRICTION)),
         anchor=anchor,
         start=_start(waypoint_m),
         satellites=SKY,
+        scenery=scenery(seed, ground, waypoint_m, route.half_width_m),
     )
     return Course(
         name="route",

@@ -15,7 +15,7 @@ from scenarios.verdicts.shapes import (
     distances_m,
     footprints,
 )
-from twin.world import SOFT, Obstacle, World
+from twin.world import SOFT, Obstacle, Terrain, World
 
 FAMILIES = {"gate_post": "gate", "gate_flank": "gate", "tunnel": "tunnel"}
 """Kinds that are counted apart; all others are plain obstacles."""
@@ -31,7 +31,7 @@ HEIGHT_M = 1.98
 class Clearance:
     """The least distance to each family of obstacles, and the distance to the nearest now."""
 
-    obstacles: Sequence[Obstacle]
+    world: World
     outline: Outline
     least_m: dict[str, float] = field(default_factory=dict)
     """By family: `gate`, `tunnel`, `other`."""
@@ -42,15 +42,24 @@ class Clearance:
     _refreshed_ns: int = -REFRESH_NS
 
     def __post_init__(self) -> None:
-        self._all = footprints(self.obstacles)
+        self._around: Sequence[Obstacle] | None = None
+        self._look_around((0.0, 0.0, 0.0))
+        self._near, self._names = self._select(np.zeros(len(self._family), dtype=bool))
+
+    def _look_around(self, pose: Pose) -> None:
+        around = self.world.around(*pose[:2])
+        if around is self._around:
+            return
+        self._around, obstacles = around, in_the_way(around, self.world.terrain)
+        self._all = footprints(obstacles)
         self._center = self._all.corner_m.mean(axis=1)
         self._reach = _reach_m(self._all, self._center)
-        self._family = [FAMILIES.get(o.kind, "other") for o in self.obstacles]
-        self._near, self._names = self._select(np.zeros(len(self.obstacles), dtype=bool))
+        self._family = [FAMILIES.get(o.kind, "other") for o in obstacles]
 
     def observe(self, time_ns: int, pose: Pose) -> None:
         """Take the pose of the reference point."""
         if time_ns - self._refreshed_ns >= REFRESH_NS:
+            self._look_around(pose)
             gap = np.hypot(*(self._center - pose[:2]).T) - self._reach
             self._near, self._names = self._select(gap < NEAR_M)
             self._refreshed_ns = time_ns
@@ -71,9 +80,9 @@ def _reach_m(shapes: Footprints, center: NDArray[np.float64]) -> NDArray[np.floa
     return np.hypot(offset[..., 0], offset[..., 1]).max(axis=1, initial=0.0) + shapes.radius_m
 
 
-def in_the_way(world: World) -> list[Obstacle]:
+def in_the_way(obstacles: Sequence[Obstacle], terrain: Terrain) -> list[Obstacle]:
     """What counts in plan view: neither soft, nor a roof high enough to drive under."""
-    hard = [obstacle for obstacle in world.obstacles if obstacle.kind not in SOFT]
+    hard = [obstacle for obstacle in obstacles if obstacle.kind not in SOFT]
     place = np.array([obstacle.center_m for obstacle in hard]).reshape(-1, 3)
-    ground = world.terrain.height(place[:, 0], place[:, 1]).tolist()
+    ground = terrain.height(place[:, 0], place[:, 1]).tolist()
     return [o for o, z in zip(hard, ground, strict=True) if bottom_m(o) < z + HEIGHT_M]

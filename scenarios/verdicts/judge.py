@@ -11,7 +11,7 @@ from nav.messages import Decision, EgoEstimate
 from nav.route.smooth_path import SmoothPath
 from nav.route.waypoints import Waypoints
 from scenarios.course import Course
-from scenarios.verdicts.clearance import Clearance, in_the_way
+from scenarios.verdicts.clearance import Clearance
 from scenarios.verdicts.contacts import Contacts
 from scenarios.verdicts.corridor import Departures, Progress
 from scenarios.verdicts.falls import Falls
@@ -82,7 +82,7 @@ class Judge:
         self.gates = GateKeeper(course.gates, self.outline)
         self.contacts = Contacts(frozenset(o for o, kind in owners.items() if kind in SOFT))
         self.falls = Falls()
-        self.clearance = Clearance(in_the_way(course.world), self.outline)
+        self.clearance = Clearance(course.world, self.outline)
         path = self.path or route_path(course)
         self.frames = frames(course)
         self.estimated, self.true, self.tunnel = CrossTrack(path), CrossTrack(path), Deviation()

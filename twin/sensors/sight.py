@@ -66,10 +66,14 @@ class Sight:
 
     def __init__(self, world: World) -> None:
         self.solid = Scene(())
+        self._shown: Sequence[Obstacle] | None = None
         self.show(world.obstacles)
 
     def show(self, obstacles: Sequence[Obstacle]) -> None:
         """Replace the things; `set_ground` must follow before the next ray."""
+        if obstacles is self._shown:
+            return
+        self._shown = obstacles
         self.things = tuple(o for o in obstacles if o.kind not in OPACITY)
         """What is solid, as `cast_hits` numbers it."""
         self.solid.set_solids(self.things)

@@ -1,0 +1,84 @@
+"""Geoms that stand for whatever is near: MuJoCo's share of a world that streams past."""
+
+from collections.abc import Sequence
+from math import hypot
+
+import mujoco
+import numpy as np
+
+from twin.world import OPACITY, Obstacle
+
+REACH_M = 16.0
+"""What is farther from the vehicle than this when the pool is placed does not stand in it: the
+vehicle moves 8 m before it is placed anew, and is 2 m long on each side of its middle."""
+COUNT = {"box": 24, "cylinder": 16}
+"""How many of a shape there are."""
+PARKED_M = -1000.0
+"""Height of those that stand for nothing."""
+
+
+def is_in(model: mujoco.MjModel) -> bool:
+    """Whether a model has one."""
+    return mujoco.mj_name2id(model, mujoco.mjtObj.mjOBJ_BODY, name("box", 0)) >= 0
+
+
+def name(shape: str, k: int) -> str:
+    """Of the body and geom number k of a shape."""
+    return f"pool_{shape}_{k:02d}"
+
+
+class Pool:
+    """The geoms of the pool in one compiled model. Picklable."""
+
+    def __init__(self, model: mujoco.MjModel) -> None:
+        self._bodies = {
+            shape: [model.body(name(shape, k)).id for k in range(count)]
+            for shape, count in COUNT.items()
+        }
+
+    def place(
+        self, model: mujoco.MjModel, data: mujoco.MjData, things: Sequence[Obstacle],
+        at_m: tuple[float, float],
+    ) -> dict[int, Obstacle | None]:  # fmt: skip
+        """Let the things near a place stand in the model.
+
+        Returns:
+            What each geom of the pool stands for now, by its id.
+
+        Raises:
+            ValueError: more stand near than there are geoms.
+        """
+        stands: dict[int, Obstacle | None] = {}
+        near = [o for o in things if o.kind not in OPACITY and _gap_m(o, at_m) < REACH_M]
+        for shape, bodies in self._bodies.items():
+            due = [o for o in near if o.shape == shape]
+            if len(due) > len(bodies):
+                at = f"({at_m[0]:.0f}, {at_m[1]:.0f})"
+                raise ValueError(f"{len(due)} of shape {shape} near {at} m, at most {len(bodies)}")
+            for body, thing in zip(bodies, [*due, *[None] * len(bodies)], strict=False):
+                geom = int(model.body_geomadr[body])
+                _put(model, data, body, geom, thing)
+                stands[geom] = thing
+        return stands
+
+
+def _gap_m(thing: Obstacle, at_m: tuple[float, float]) -> float:
+    x, y, _ = thing.center_m
+    return hypot(x - at_m[0], y - at_m[1]) - hypot(*thing.half_size_m)
+
+
+def _put(
+    model: mujoco.MjModel, data: mujoco.MjData, body: int, geom: int, thing: Obstacle | None
+) -> None:
+    """One geom: where it is, and how large, for the narrow phase as well as for the broad one."""
+    mocap = model.body_mocapid[body]
+    if thing is None:
+        data.mocap_pos[mocap] = 0.0, 0.0, PARKED_M
+        return
+    a, b, c = thing.half_size_m
+    upright = thing.shape == "cylinder"
+    data.mocap_pos[mocap], data.mocap_quat[mocap] = thing.center_m, thing.quat
+    model.geom_size[geom] = (a, c, 0.0) if upright else (a, b, c)
+    model.geom_rbound[geom] = hypot(a, c) if upright else hypot(a, b, c)
+    box = np.array([0.0, 0.0, 0.0, a, a if upright else b, c])
+    model.geom_aabb[geom] = model.bvh_aabb[model.body_bvhadr[body]] = box
