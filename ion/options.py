@@ -12,10 +12,11 @@ from ion.courses import Source, route_source, scenario_names, scenario_source
 from ion.errors import UsageError
 from ion.job import Job
 from ion.view.options import LOCAL
+from scenarios.scenario import FLAGS
 
 Log = Literal["full", "inputs", "light", "off"]
 MAX_SEED = 2**32 - 1
-SCENARIO_OPTIONS = ("field", "density")
+SCENARIO_OPTIONS = ("field", "density", "first", "last")
 """Options that only some scenarios take: those of their `scenario.toml`."""
 
 
@@ -52,9 +53,9 @@ class Options:
     host: Annotated[str, arg(metavar="ADDRESS")] = LOCAL
     """With --view: where it can be reached from. Default: this machine only."""
     first: Annotated[int | None, arg(name="from", metavar="WAYPOINT")] = None
-    """With --route: number of the waypoint to begin at."""
+    """Of a route file or gc05_route: number of the waypoint to begin at."""
     last: Annotated[int | None, arg(name="to", metavar="WAYPOINT")] = None
-    """With --route: number of the waypoint to end at."""
+    """Of a route file or gc05_route: number of the waypoint to end at."""
     density: Annotated[int | None, arg(metavar="N")] = None
     """Of random_field: how many circles lie about. Default: 80, beside traps and forks 40."""
     field: Annotated[str | None, arg(metavar="circles|traps|forks")] = None
@@ -104,15 +105,17 @@ def _source(options: Options) -> Source:
     if options.route is not None:
         if options.scenario is not None:
             raise UsageError(f"{options.scenario!r} and --route: expected one of them")
-        if given:
-            raise UsageError(f"--{next(iter(given))}: expected a scenario with it, not --route")
+        for name in given:
+            if name not in FLAGS:
+                raise UsageError(f"--{name}: expected a scenario with it, not --route")
         return route_source(options.route, options.first, options.last)
-    if options.first is not None or options.last is not None:
-        raise UsageError("--from and --to: expected --route FILE with them")
     if options.scenario is None:
         there_are = ", ".join(scenario_names())
         raise UsageError(f"expected a scenario or --route FILE; scenarios: {there_are}")
-    return scenario_source(options.scenario, given)
+    source = scenario_source(options.scenario, given)
+    if "first" in given or "last" in given:
+        source.course(0)  # refuses a stretch that ends before it begins
+    return source
 
 
 def _check_ablations(names: tuple[str, ...], source: Source) -> None:

@@ -23,6 +23,8 @@ class Chunks:
     """... and its radius, shape (n,)."""
     draw: Callable[[int], Things]
     """What stands in chunk k: a pure function. Can be pickled."""
+    first: int = 0
+    """Number of the chunk whose circle comes first."""
     _drawn: dict[int, Things] = field(default_factory=dict[int, Things])
     _near: tuple[int, ...] = ()
     _around: Things = ()
@@ -38,11 +40,11 @@ class Chunks:
 
     def everything(self) -> Things:
         """See `Scenery`."""
-        return tuple(thing for k in range(len(self.radius_m)) for thing in self.draw(k))
+        return tuple(t for k in range(len(self.radius_m)) for t in self.draw(self.first + k))
 
     def _chunk(self, k: int) -> Things:
         if k not in self._drawn:
             while len(self._drawn) >= KEPT:
                 del self._drawn[next(iter(self._drawn))]
-            self._drawn[k] = self.draw(k)
+            self._drawn[k] = self.draw(self.first + k)
         return self._drawn[k]

@@ -7,6 +7,9 @@ from typing import Any
 
 import msgspec
 
+FLAGS = {"first": "from", "last": "to"}
+"""What an option is called on the command line, where that is no name in Python."""
+
 
 class Option(msgspec.Struct, forbid_unknown_fields=True, frozen=True):
     """What a value may be: one of some words, or a whole number within limits."""
@@ -59,7 +62,8 @@ def check_options(name: str, options: Mapping[str, Any]) -> None:
     """
     known = load_scenario(name).options
     for option, value in options.items():
+        flag = FLAGS.get(option, option)
         if option not in known:
-            raise ValueError(f"--{option}: the scenario {name!r} takes no such option")
+            raise ValueError(f"--{flag}: the scenario {name!r} takes no such option")
         if not known[option].allows(value):
-            raise ValueError(f"--{option} {value}: expected {known[option]}")
+            raise ValueError(f"--{flag} {value}: expected {known[option]}")

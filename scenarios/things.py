@@ -22,6 +22,8 @@ BALE_HEIGHT_M = 0.42
 TIRE_RADIUS_M = 0.34
 BEAM_HALF_M = (0.75, 0.07, 0.07)
 """One of the three beams of a tank trap."""
+ROOF_M, ROOF_THICKNESS_M = 3.0, 0.3
+WALL_THICKNESS_M = 0.15
 STRIP_HALF_M = (0.06, 2.2, 0.02)
 
 
@@ -101,6 +103,18 @@ class Site(NamedTuple):
                        times(yaw(heading + 2.0 * pi * k / 3.0), _pitch(-asin(rise))))
             for k in range(3)
         ]  # fmt: skip
+
+    def passage(self, middle: Pose, half_length_m: float, width_m: float) -> list[Obstacle]:
+        """Two walls and a roof along a heading; the width is free between the walls."""
+        wall = half_length_m, WALL_THICKNESS_M / 2.0
+        left = width_m / 2.0 + wall[1]
+        top = ROOF_M + ROOF_THICKNESS_M
+        roof = half_length_m, width_m / 2.0 + WALL_THICKNESS_M
+        return [
+            self.box("wall_left", middle.moved(0.0, left), wall, top),
+            self.box("wall_right", middle.moved(0.0, -left), wall, top),
+            self.box("roof", middle, roof, top, ROOF_M),
+        ]
 
     def rumble_strips(self, count: int = 5, spacing_m: float = 0.6) -> list[Obstacle]:
         """Bars across the track, 2 cm high, that lie on the ground."""

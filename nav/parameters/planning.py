@@ -80,6 +80,11 @@ class SpeedProfileParameters:
     lateral_mps2: float
     braking_mps2: float
     cap_mps: float
+    """The vehicle's own limit ..."""
+    open_mps: float
+    """... and the one on an open track: one whose limit is at least ..."""
+    open_limit_mps: float
+    """... this."""
     limit_factor: float
     """Share of the speed limit that is aimed at, so that control errors stay below it."""
     avoid_mps: float

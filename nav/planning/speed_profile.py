@@ -14,7 +14,8 @@ def speed_profile(route: SmoothPath, p: SpeedProfileParameters) -> Floats:
     what lies ahead than `braking_mps2`.
     """
     bend = np.sqrt(p.lateral_mps2 / np.maximum(np.abs(route.curvature_per_m), 1e-4))
-    limit = np.minimum(p.limit_factor * route.speed_limit_mps, p.cap_mps)
+    cap = np.where(route.speed_limit_mps >= p.open_limit_mps, p.open_mps, p.cap_mps)
+    limit = np.minimum(p.limit_factor * route.speed_limit_mps, cap)
     squared = np.minimum(limit, bend) ** 2
     gained = 2.0 * p.braking_mps2 * route.arc_m
     # v_i^2 <= v_j^2 + 2 a (s_j - s_i) for all j >= i is a running minimum from behind

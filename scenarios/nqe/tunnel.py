@@ -15,8 +15,6 @@ WIDTH_M = (3.0, 3.6)
 BEND_RAD = (radians(2.0), radians(4.0))
 MISS_M = (0.3, 0.6)
 """Distance of the axis from the route line, everywhere between the mouths."""
-ROOF_M, ROOF_THICKNESS_M = 3.0, 0.3
-WALL_THICKNESS_M = 0.15
 OVERLAP_M = 0.08
 """The two halves overlap at the bend, so that no ray slips out."""
 
@@ -50,12 +48,4 @@ def _half(site: Site, start: Pose, width: float) -> list[Obstacle]:
     """Two walls and a roof from the bend outwards."""
     half_length = (HALF_LENGTH_M + OVERLAP_M) / 2.0
     middle = start.moved(half_length - OVERLAP_M, 0.0)
-    wall = half_length, WALL_THICKNESS_M / 2.0
-    left = width / 2.0 + wall[1]
-    top = ROOF_M + ROOF_THICKNESS_M
-    roof = half_length, width / 2.0 + WALL_THICKNESS_M
-    return [
-        site.box("wall_left", middle.moved(0.0, left), wall, top),
-        site.box("wall_right", middle.moved(0.0, -left), wall, top),
-        site.box("roof", middle, roof, top, ROOF_M),
-    ]
+    return site.passage(middle, half_length, width)

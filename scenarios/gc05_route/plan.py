@@ -1,0 +1,65 @@
+"""`plan.toml` as data."""
+
+from functools import cache
+from importlib.resources import files
+
+import msgspec
+
+
+class Stretch(msgspec.Struct, forbid_unknown_fields=True, frozen=True):
+    """Waypoints of one kind of country, in driving order."""
+
+    kind: str
+    waypoints: int
+    spacing: float
+    """Relative to that of the others."""
+    sharp: int
+    """How many turns above 30 degrees, but for those of hairpins."""
+    hairpins: int = 0
+    ease: float = 0.5
+    """0 for what is driven slowly in a narrow corridor, 1 for a dry lake."""
+
+
+class Speeds(msgspec.Struct, forbid_unknown_fields=True, frozen=True):
+    """Speed limits, and the share of the route's length that has each."""
+
+    mph: list[float]
+    share: list[float]
+
+
+class Widths(msgspec.Struct, forbid_unknown_fields=True, frozen=True):
+    """Half-widths of the corridor, and the share of the waypoints that has each."""
+
+    ft: list[float]
+    share: list[float]
+
+
+class Plan(msgspec.Struct, forbid_unknown_fields=True, frozen=True):
+    """See `plan.toml`."""
+
+    seed: int
+    anchor_deg: tuple[float, float]
+    miles: float
+    first_mile_heading_deg: float
+    ring_miles: float
+    wander_rad: float
+    sharp_deg: tuple[float, float]
+    stretches: list[Stretch]
+    speeds: Speeds
+    widths: Widths
+
+    @property
+    def waypoints(self) -> int:
+        """Of the whole route."""
+        return sum(stretch.waypoints for stretch in self.stretches)
+
+    def kinds(self) -> list[str]:
+        """The kind of country at each waypoint."""
+        return [s.kind for s in self.stretches for _ in range(s.waypoints)]
+
+
+@cache
+def load_plan() -> Plan:
+    """The plan that comes with the scenario."""
+    text = (files(__package__ or "") / "plan.toml").read_text(encoding="utf-8")
+    return msgspec.toml.decode(text, type=Plan)
