@@ -34,6 +34,7 @@ def _command() -> int:
     from ion.options import Options
     from ion.replay.options import Options as ReplayOptions
     from ion.report.options import Options as ReportOptions
+    from ion.route.options import Options as RouteOptions
     from ion.truth.options import Options as TruthOptions
     from ion.view.options import Options as ViewOptions
 
@@ -80,6 +81,13 @@ def _command() -> int:
         from ion.report import command
 
         return command.report(options)
+
+    @app.command
+    def route(options: Annotated[RouteOptions, tyro.conf.arg(name="")]) -> int:
+        """Say what a route file amounts to: lengths, limits, turns; and draw it."""
+        from ion.route import command
+
+        return command.route(options)
 
     @app.command
     def truth(options: Annotated[TruthOptions, tyro.conf.arg(name="")]) -> int:
