@@ -13,11 +13,12 @@ def main() -> NoReturn:
     fix_processor()
     from ion.errors import UsageError
     from nav.errors import NavError
+    from scenarios.checkpoint import CheckpointError
     from tape.errors import TapeError
 
     try:
         sys.exit(_command())
-    except (UsageError, NavError, TapeError) as error:
+    except (UsageError, NavError, TapeError, CheckpointError) as error:
         print(f"ion: {error}", file=sys.stderr)
         sys.exit(BAD_INPUT)
     except KeyboardInterrupt:

@@ -8,7 +8,7 @@ from typing import Any
 from rich.console import Console
 
 from ion.job import Job
-from ion.options import Options, job_of, seeds_of
+from ion.options import Options, checkpoint_of, job_of, seeds_of
 from ion.telling import Bar, Result, as_json, line, summary, table
 from scenarios.batch import many
 from scenarios.run import Watch
@@ -23,6 +23,8 @@ def drive(options: Options) -> int:
         UsageError: an option is wrong.
         NavError: the route file is wrong.
     """
+    if options.resume is not None:
+        return _code([_resumed(options)])
     seeds, job = seeds_of(options), job_of(options)
     if options.view:
         return _shown(job, seeds[0], options)
@@ -42,9 +44,21 @@ def _shown(job: Job, seed: int, options: Options) -> int:
     return _code([result])
 
 
+def _resumed(options: Options) -> Result:
+    """Go on from the last checkpoint."""
+    start = checkpoint_of(options)
+    with Bar(f"{start.job.source.title} {start.seed}") as bar:
+        result = start.job.go_on(start, [bar])
+    return _say(result, options.json)
+
+
 def _one(job: Job, seed: int, json: bool, watches: Sequence[Watch] = ()) -> Result:
     with Bar(f"{job.source.title} {seed}") as bar:
         result = job.drive(seed, [bar, *watches])
+    return _say(result, json)
+
+
+def _say(result: Result, json: bool) -> Result:
     if json:
         print(as_json(result))
     else:

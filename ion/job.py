@@ -7,6 +7,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from ion.courses import Source
+from ion.segments import Checkpoint, Checkpoints, Segments, is_long
 from scenarios.batch import stop_asked
 from scenarios.processor import fingerprint
 from scenarios.run import Watch, run
@@ -18,6 +19,9 @@ if TYPE_CHECKING:
     from scenarios.episode import Episode
     from tape.held_back import HeldBack
     from tape.writer import TapeWriter
+
+
+TAPE = ".mcap"
 
 
 @dataclass(frozen=True)
@@ -38,17 +42,31 @@ class Job:
             NavError: the route cannot be driven.
             OSError: tape or map cannot be written.
         """
-        from ion.recorded import EVENTS, FIGURES
-        from ion.telling import as_json
         from ion.trace import Trace
         from scenarios.episode import Episode
-        from scenarios.events import Events, as_rows
+        from scenarios.events import Events
+
+        episode = Episode(self.source.course(seed), seed, self.ablate)
+        return self.go_on(Checkpoint(self, seed, 0, episode, Trace(), Events()), watches)
+
+    def go_on(self, start: "Checkpoint", watches: Sequence[Watch] = ()) -> dict[str, Any]:
+        """As `drive`, from where a checkpoint was written.
+
+        Raises:
+            OSError: tape or map cannot be written.
+        """
+        from ion.recorded import EVENTS, FIGURES
+        from ion.telling import as_json
+        from scenarios.events import as_rows
         from scenarios.true_states import TrueStates
 
-        course, trace, tape = self.source.course(seed), Trace(), self.path(seed, ".mcap")
-        episode, events = Episode(course, seed, self.ablate), Events()
-        with self._tape(course, seed, tape) as writer:
-            figures = run(episode, writer, [*watches, trace, events, TrueStates(writer)])
+        _, seed, _, episode, trace, events = start
+        course, tape = episode.course, self._log(episode.course, seed)
+        with self._tape(start, tape) as writer:
+            told = [*watches, trace, events, TrueStates(writer)]
+            if isinstance(writer, Segments):
+                told.append(Checkpoints(start, writer))
+            figures = run(episode, writer, told)
             figures |= {"scenario": self.source.title, "ablate": list(self.ablate)}
             wanted = not self.failures_only or figures["outcome"] != "finished"
             if wanted:
@@ -70,10 +88,18 @@ class Job:
         name = "_".join((self.source.name, *self.ablate, f"seed{seed}"))
         return self.out / f"{name}{suffix}"
 
-    def _tape(self, course: "Course", seed: int, path: Path) -> "HeldBack":
+    def _log(self, course: "Course", seed: int) -> Path:
+        """Where the tape goes: of a long drive into a folder."""
+        segments = is_long(course) and not self.failures_only
+        return self.path(seed, "" if segments else TAPE)
+
+    def _tape(self, start: "Checkpoint", path: Path) -> "HeldBack | Segments":
         """The tape of a drive; one that may not be wanted waits in memory."""
         from tape.held_back import MOST, HeldBack
 
+        course, seed = start.episode.course, start.seed
+        if path.suffix != TAPE:
+            return Segments(path, lambda part: self._writer(course, seed, part), start.segment)
         most = MOST if self.failures_only else 0
         return HeldBack(lambda: self._writer(course, seed, path), most)
 
@@ -81,8 +107,9 @@ class Job:
         """What the tape of this drive says before the first tick."""
         from ion.recorded import Recorded
 
-        course, path = self.source.course(seed), self.path(seed, ".mcap")
-        return Recorded(path, self._said(course, seed), self._attached(course), {}, ())
+        course = self.source.course(seed)
+        log, attached = self._log(course, seed), self._attached(course)
+        return Recorded(log, self._said(course, seed), attached, {}, ())
 
     def _writer(self, course: "Course", seed: int, path: Path) -> "TapeWriter":
         from tape.writer import TapeWriter

@@ -4,7 +4,7 @@ import re
 from dataclasses import dataclass, replace
 from pathlib import Path
 from tempfile import TemporaryFile
-from typing import Annotated, Literal
+from typing import TYPE_CHECKING, Annotated, Literal
 
 from tyro.conf import Positional, UseAppendAction, arg
 
@@ -13,6 +13,9 @@ from ion.errors import UsageError
 from ion.job import Job
 from ion.view.options import LOCAL
 from scenarios.scenario import FLAGS
+
+if TYPE_CHECKING:
+    from ion.segments import Checkpoint
 
 Log = Literal["full", "inputs", "light", "off"]
 MAX_SEED = 2**32 - 1
@@ -46,6 +49,8 @@ class Options:
     seeds the tapes of failures only."""
     route: Annotated[Path | None, arg(metavar="FILE")] = None
     """A route definition file (RDDF) to drive instead of a scenario."""
+    resume: Annotated[Path | None, arg(metavar="FOLDER")] = None
+    """Go on with a long drive from its last checkpoint: the folder of its log. Alone."""
     view: bool = False
     """Show the drive as a web page while it is driven, as `ion view` does afterwards."""
     port: Annotated[int | None, arg(metavar="N")] = None
@@ -79,6 +84,29 @@ def job_of(options: Options) -> Job:
     check_folder(options.out)
     few = options.seeds is not None and options.log is None
     return Job(source, options.out, options.log or "full", options.ablate, failures_only=few)
+
+
+def checkpoint_of(options: Options) -> "Checkpoint":
+    """What `--resume` goes on from, its log in the folder that was named.
+
+    Raises:
+        UsageError: another option beside it, or no checkpoint of ours there.
+    """
+    from ion.segments import last_checkpoint
+    from scenarios.checkpoint import CheckpointError
+
+    folder, alone = options.resume, Options(resume=options.resume, json=options.json)
+    if folder is None or options != alone:
+        raise UsageError("--resume: expected nothing beside it but --json: the rest is recorded")
+    try:
+        start = last_checkpoint(folder)
+    except CheckpointError as error:
+        raise UsageError(f"--resume {error}") from error
+    folder, job = folder.resolve(), start.job
+    if job.path(start.seed, "").name != folder.name:
+        named = job.path(start.seed, "").name
+        raise UsageError(f"--resume {folder}: was renamed, expected the name {named}")
+    return start._replace(job=replace(job, out=folder.parent))
 
 
 def seeds_of(options: Options) -> list[int]:

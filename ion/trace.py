@@ -1,5 +1,6 @@
 """What a run leaves for its map: where the vehicle was, and which obstacles it saw."""
 
+from array import array
 from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
@@ -16,28 +17,33 @@ Floats = NDArray[np.float64]
 
 EVERY = 10
 """Ticks between two places: 0.2 s."""
+MERGED = 200
+"""Reports of cells that are kept side by side before those that repeat are dropped."""
 
 
 class Trace:
-    """Watches a run."""
+    """Watches a run, in memory that grows with the way and not with the time."""
 
     def __init__(self) -> None:
         self._tick = 0
-        self._places: list[tuple[float, float, float]] = []
-        self._cells: list[NDArray[np.int64]] = []
+        self._places = array("d")
+        self._cells: NDArray[np.int64] = np.zeros((0, 2), np.int64)
+        self._new: list[NDArray[np.int64]] = []
         self._cell_m = 1.0
 
     def __call__(self, episode: "Episode", records: Sequence[Record]) -> None:
         """Take the truth every 0.2 s, and all cells that were reported."""
         if self._tick % EVERY == 0 or episode.outcome:
             x, y = episode.truth.position_m[:2].tolist()
-            self._places.append((x, y, episode.truth.speed_mps))
+            self._places.extend((x, y, episode.truth.speed_mps))
         self._tick += 1
         self._cell_m = episode.navigator.parameters.obstacle_map.cell_m
         for record in records:
             if isinstance(record.message, ObstacleCells):
                 cells = np.floor(record.message.position_m / self._cell_m).astype(np.int64)
-                self._cells.append(cells.reshape(-1, 2))
+                self._new.append(cells.reshape(-1, 2))
+        if len(self._new) >= MERGED:
+            self._merge()
 
     def track(self) -> Floats:
         """Shape (n, 3): x, y [m] in the world frame and speed [m/s]."""
@@ -45,7 +51,9 @@ class Trace:
 
     def cells_m(self) -> Floats:
         """Shape (m, 2): all cells that were ever occupied, route frame N, [m]."""
-        if not self._cells:
-            return np.zeros((0, 2))
-        cells = np.unique(np.concatenate(self._cells), axis=0)
-        return (cells.astype(np.float64) + 0.5) * self._cell_m
+        self._merge()
+        return (self._cells.astype(np.float64) + 0.5) * self._cell_m
+
+    def _merge(self) -> None:
+        self._cells = np.unique(np.concatenate([self._cells, *self._new]), axis=0)
+        self._new = []

@@ -43,7 +43,7 @@ def read(path: Path, prefix: str | tuple[str, ...] = PREFIX) -> Iterator[Record]
     """The records of a tape, in order of delivery; a cut end is simply where it ends.
 
     Args:
-        path: of the tape.
+        path: of the tape, or of the folder that holds its segments.
         prefix: of the topics; by default those that crossed the navigator's boundary.
 
     Raises:
@@ -114,8 +114,28 @@ def _kind(path: Path, topic: str, name: str) -> Any:
     return _KINDS[name]
 
 
+def segments(path: Path) -> list[Path]:
+    """The files of a tape: those of a folder in their order, or the file itself.
+
+    Raises:
+        TapeError: a folder without any.
+    """
+    if not os.path.isdir(path):
+        return [path]
+    files = sorted(name for name in os.listdir(path) if name.endswith(".mcap"))
+    if not files:
+        raise TapeError(f"{path}: no tape in this folder; expected segments 0000.mcap, ...")
+    return [os.path.join(path, name) for name in files]
+
+
 def _items(path: Path, chunks: bool = False) -> Iterator[Any]:
-    """All records of the file in its own order; with `chunks`, messages stay packed."""
+    """All records of all segments in their order; with `chunks`, messages stay packed."""
+    for segment in segments(path):
+        yield from _items_of(segment, chunks)
+
+
+def _items_of(path: Path, chunks: bool) -> Iterator[Any]:
+    """All records of the file in its own order."""
     try:
         with open(path, "rb") as file:
             closed = _check(path, file)
