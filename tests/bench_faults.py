@@ -2,7 +2,7 @@
 [--jobs N] [--scenario nqe] [--seed N] [LINE ...]`, a line as `--fault` takes it.
 
 A line of a table for each: how it ended, contacts, departures, clearance, and when it stood
-at last, after the fault had begun. An hour and a half on two cores for the whole NQE.
+at last, after the fault had begun. An hour on two cores for the whole NQE.
 """
 
 import sys
