@@ -76,7 +76,7 @@ def _add_obstacle(spec: mujoco.MjSpec, obstacle: Obstacle, friction: float) -> N
 
 
 def _add_pool(spec: mujoco.MjSpec, friction: float) -> None:
-    """As tall as wide: then the axes of inertia, in which MuJoCo keeps the bounds, are the geoms."""
+    """As tall as wide: then the axes of inertia, in which MuJoCo keeps bounds, are the geoms'."""
     for shape, count in pool.COUNT.items():
         for k in range(count):
             name = pool.name(shape, k)
