@@ -1,7 +1,8 @@
 """One check for each kind of device but the scanners: why its message is implausible, or nothing;
 None where there is nothing to hold it against."""
 
-from dataclasses import dataclass
+from collections import deque
+from dataclasses import dataclass, field
 from math import hypot
 
 import numpy as np
@@ -21,10 +22,17 @@ from nav.parameters.plausibility import PlausibilityParameters
 
 STEADY_S = 0.5
 FROZEN = "frozen"
+LATE_MESSAGES = 20
+"""Of the wheels, 0.4 s: a fix is not older."""
 LEAST_SONARS = 2
 """One alone may pass from thing to thing."""
 TURNING_MPS = 0.1
 """Wheels that stand may say so again and again."""
+
+
+def _short() -> deque[tuple[int, float]]:
+    """As long as a fix is fresh."""
+    return deque(maxlen=LATE_MESSAGES)
 
 
 @dataclass
@@ -102,16 +110,19 @@ class Gyro:
 
 @dataclass
 class Wheels:
-    """Wheel speeds against the speed of a fix."""
+    """Wheel speeds against the speed of a fix, as they were at its time."""
 
     parameters: PlausibilityParameters
     repeats: Repeats
     wheel_mps: Floats | None = None
+    _middle_mps: deque[tuple[int, float]] = field(default_factory=_short)
+    """Times and medians of late."""
 
     def wrong(self, state: VehicleState, ego: Ego, others: Witnesses) -> str | None:
         """See the module."""
         p, moving = self.parameters, abs(ego.speed_mps) > self.parameters.moving_mps
         before, self.wheel_mps = self.wheel_mps, state.wheel_speed_mps
+        self._middle_mps.append((state.time_ns, _middle(state.wheel_speed_mps)))
         if self.repeats.again(state.wheel_speed_mps):
             return FROZEN if float(state.wheel_speed_mps.max()) > TURNING_MPS else None
         if before is not None and _middle(np.abs(self.wheel_mps - before)) > p.wheel_step_mps:
@@ -120,11 +131,15 @@ class Wheels:
         if fix is None or not ego.ready:
             return None if others.fix else ""
         east, north, _ = fix.velocity_mps.tolist()
-        apart = _middle(state.wheel_speed_mps) - hypot(east, north)
+        apart = self._at(fix.time_ns) - hypot(east, north)
         if abs(apart) <= p.wheels_mps:
             return ""
         spinning = not moving and state.throttle > 0.1  # in a hole, say: that is no fault
         return None if spinning else f"{apart:.1f} m/s beside GPS"
+
+    def _at(self, time_ns: int) -> float:
+        """The median at the time of a fix; the oldest that is known."""
+        return next((v for t, v in self._middle_mps if t >= time_ns), self._middle_mps[-1][1])
 
 
 @dataclass
