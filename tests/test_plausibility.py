@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from nav.fusion.plausibility import Plausibility
-from nav.fusion.plausibility.scans import jump_m, steadiness
+from nav.fusion.plausibility.scans import Moved, jump_m, steadiness
 from nav.messages import (
     CompassHeading,
     Gear,
@@ -156,7 +156,14 @@ def test_leaves_that_half_of_the_beams_pass_are_no_noise():
 
 def test_what_comes_nearer_does_not_jump():
     wall = np.full(361, 10.0)
-    assert jump_m(wall, wall - 0.7, 0.7, P.scan) == 0.0
-    assert jump_m(wall, wall - 0.7, 0.1, P.scan) == pytest.approx(-0.7)
+    assert jump_m(wall, wall - 0.7, Moved(0.7, 0.0), P.scan) == 0.0
+    assert jump_m(wall, wall - 0.7, Moved(0.1, 0.0), P.scan) == pytest.approx(-0.7)
     pitched = np.linspace(8.0, 30.0, 361)
-    assert jump_m(pitched, pitched + 0.002 * pitched**2, 0.1, P.scan) == 0.0
+    assert jump_m(pitched, pitched + 0.002 * pitched**2, Moved(0.1, 0.0), P.scan) == 0.0
+
+
+def test_a_far_slope_that_a_level_scanner_grazes_does_not_jump():
+    slope = np.linspace(37.0, 46.0, 361)
+    tilted = Moved(0.23, 0.0073 * 0.0267)
+    assert jump_m(slope, slope + 0.49, tilted, P.scan) == 0.0
+    assert jump_m(slope, slope + 0.49, Moved(0.23, 0.0), P.scan) == pytest.approx(0.49)

@@ -1,6 +1,7 @@
 """Whether a LIDAR's ranges can be true: neither noise nor one offset of all beams."""
 
 from dataclasses import dataclass
+from typing import NamedTuple
 
 import numpy as np
 
@@ -10,8 +11,18 @@ from nav.parameters.plausibility import ScanParameters
 
 NO_RETURN_M = 81.92
 STANDS_MPS = 0.05
+LOW_M = 0.5
+"""No scanner sits lower above the ground."""
 EVERY = 4
 """So many beams are enough to see that all have jumped."""
+
+
+class Moved(NamedTuple):
+    """How the vehicle has moved from one scan to the next."""
+
+    way_m: float
+    tilt_rad: float
+    """Rolled and pitched."""
 
 
 @dataclass
@@ -32,8 +43,9 @@ class Scans:
         self.range_m, self.time_ns = scan.range_m, scan.time_ns
         if before is None:
             return ""
-        way_m = abs(speed_mps) * (scan.time_ns - past_ns) * 1e-9
-        self.shift_m += jump_m(before[::EVERY], scan.range_m[::EVERY], way_m, p)
+        since_s = (scan.time_ns - past_ns) * 1e-9
+        moved = Moved(abs(speed_mps) * since_s, ego.rocking_radps * since_s)
+        self.shift_m += jump_m(before[::EVERY], scan.range_m[::EVERY], moved, p)
         if scan.time_ns - self.looked_ns < p.every_s * 1e9:
             return None
         self.looked_ns = scan.time_ns
@@ -70,11 +82,11 @@ def steadiness(
     return np.count_nonzero(alike & pair) / count
 
 
-def jump_m(before_m: Floats, range_m: Floats, way_m: float, p: ScanParameters) -> float:
+def jump_m(before_m: Floats, range_m: Floats, moved: Moved, p: ScanParameters) -> float:
     """By how much all ranges have changed alike, [m]; 0 where they have not.
 
-    The world does not do that: what the vehicle nears on its `way_m` comes nearer by the cosine of
-    its bearing, and ground moves with the square of its range as the vehicle pitches.
+    The world does not do that: what the vehicle nears on its way comes nearer by the cosine of its
+    bearing, and as it pitches, ground moves by the square of its range over the scanner's height.
     """
     change = range_m - before_m
     far = np.abs(change) > p.jump_m
@@ -85,7 +97,8 @@ def jump_m(before_m: Floats, range_m: Floats, way_m: float, p: ScanParameters) -
         return 0.0
     change = change[both]
     middle = _median(change)
-    if abs(middle) < p.jump_m + way_m:
+    ground_m = _median(before_m[both]) ** 2 * moved.tilt_rad / LOW_M
+    if abs(middle) < p.jump_m + moved.way_m + ground_m:
         return 0.0
     alike = np.count_nonzero(np.abs(change - middle) < p.alike_m)
     return middle if alike > p.alike_share * change.size else 0.0
