@@ -27,6 +27,7 @@ def speeds_mph(plan: Plan, position_m: Floats) -> Floats:
     mph[order] = np.array(plan.speeds.mph)[at]
     for k in underpasses.segments(position_m):
         mph[k] = UNDERPASS_MPH
+    mph[plan.robotic.segments] = plan.robotic.mph
     mph[-1] = 0.0
     return mph
 
@@ -41,6 +42,7 @@ def half_widths_ft(plan: Plan, position_m: Floats) -> Floats:
     feet[order] = np.array(plan.widths.ft)[at]
     for k in underpasses.segments(position_m):
         feet[k] = UNDERPASS_FT
+    feet[plan.robotic.segments] = plan.robotic.half_width_ft
     return feet
 
 

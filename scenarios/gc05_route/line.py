@@ -5,7 +5,7 @@ from math import pi, radians
 import numpy as np
 
 from scenarios.course import Floats
-from scenarios.gc05_route.plan import Plan, Stretch
+from scenarios.gc05_route.plan import Plan, Robotic, Stretch
 from scenarios.things import generator
 
 MILE_M = 1609.344
@@ -30,11 +30,23 @@ def positions_m(plan: Plan) -> Floats:
     spacing, turn = (np.concatenate(parts) for parts in zip(
         *(_stretch(rng, plan, stretch) for stretch in plan.stretches), strict=True
     ))  # fmt: skip
+    _turn_back(plan.robotic, spacing, turn)
     spacing *= plan.miles * MILE_M / spacing[:-1].sum()
     ring = np.cumsum(spacing) * 2.0 * pi / (plan.ring_miles * MILE_M)
     heading = radians(90.0 - plan.first_mile_heading_deg) - ring + turn
     step = spacing[:, None] * np.stack([np.cos(heading), np.sin(heading)], axis=1)
     return np.vstack([np.zeros(2), np.cumsum(step[:-1], axis=0)])
+
+
+def _turn_back(robotic: Robotic, spacing: Floats, beside: Floats) -> None:
+    """Lay the two turns into distances and headings beside the ring's."""
+    first, last = robotic.waypoints
+    half = radians(robotic.turn_deg) / 2.0
+    side = np.copysign(half, beside[robotic.segments.start - 1])
+    spacing[robotic.segments] = robotic.spacing
+    beside[robotic.segments] = side
+    beside[first - 1 : last - 1] = -side
+    beside[robotic.segments.stop] = 0.4 * side
 
 
 def _stretch(rng: np.random.Generator, plan: Plan, stretch: Stretch) -> tuple[Floats, Floats]:

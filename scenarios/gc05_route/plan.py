@@ -34,6 +34,24 @@ class Widths(msgspec.Struct, forbid_unknown_fields=True, frozen=True):
     share: list[float]
 
 
+class Robotic(msgspec.Struct, forbid_unknown_fields=True, frozen=True):
+    """Two turns that no forward path can take, one to each side."""
+
+    waypoints: tuple[int, int]
+    """Numbers of the corners."""
+    turn_deg: float
+    spacing: float
+    """Of the waypoints around them, relative."""
+    half_width_ft: float
+    mph: float
+
+    @property
+    def segments(self) -> slice:
+        """From two waypoints before the first corner to two behind the second."""
+        first, last = self.waypoints
+        return slice(first - 3, last + 1)
+
+
 class Plan(msgspec.Struct, forbid_unknown_fields=True, frozen=True):
     """See `plan.toml`."""
 
@@ -44,6 +62,7 @@ class Plan(msgspec.Struct, forbid_unknown_fields=True, frozen=True):
     ring_miles: float
     wander_rad: float
     sharp_deg: tuple[float, float]
+    robotic: Robotic
     stretches: list[Stretch]
     speeds: Speeds
     widths: Widths
