@@ -30,6 +30,7 @@ def _command() -> int:
     import tyro
 
     from ion.calibrate.options import Options as CalibrateOptions
+    from ion.compare.options import Options as CompareOptions
     from ion.explain.options import Options as ExplainOptions
     from ion.figures.options import Options as FiguresOptions
     from ion.options import Options
@@ -68,6 +69,13 @@ def _command() -> int:
         from ion.calibrate import command
 
         return command.calibrate(options)
+
+    @app.command
+    def compare(options: Annotated[CompareOptions, tyro.conf.arg(name="")]) -> int:
+        """Drive variants of one drive from the same moment on, and say where they part."""
+        from ion.compare import command
+
+        return command.compare(options)
 
     @app.command
     def figures(options: Annotated[FiguresOptions, tyro.conf.arg(name="")]) -> int:

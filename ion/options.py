@@ -115,13 +115,22 @@ def seeds_of(options: Options) -> list[int]:
     Raises:
         UsageError: they name none, or it is no list of seeds.
     """
-    parts = [str(options.seed)] if options.seeds is None else options.seeds.split(",")
+    if options.seeds is None:
+        return listed(str(options.seed), "--seed")
+    return listed(options.seeds, "--seeds")
+
+
+def listed(text: str, what: str) -> list[int]:
+    """A list of seeds as people write it: 7, 0-19 or 1,4,7-9.
+
+    Raises:
+        UsageError: it is none.
+    """
     found: dict[int, None] = {}
-    for part in parts:
+    for part in text.split(","):
         match = re.fullmatch(r"\s*(\d{1,10})(?:-(\d{1,10}))?\s*", part)
         low, high = (int(match[1]), int(match[2] or match[1])) if match else (1, 0)
         if not low <= high <= MAX_SEED:
-            what = "--seed" if options.seeds is None else "--seeds"
             raise UsageError(f"{what} {part!r}: expected whole numbers such as 7, 0-19 or 1,4,7-9")
         found |= dict.fromkeys(range(low, high + 1))
     return list(found)

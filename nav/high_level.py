@@ -80,7 +80,7 @@ class HighLevelController:
         """What was seen since the trouble began."""
 
     def retune(self, parameters: Parameters) -> None:
-        """Decide by other steering and speed rules from now on: nothing here is made from them."""
+        """Decide by other fuzzy rules and states from now on: nothing here is made from them."""
         self.parameters = self.machine.parameters = parameters
 
     def decide(

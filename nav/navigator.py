@@ -2,7 +2,6 @@
 
 from collections import deque
 from collections.abc import Sequence
-from dataclasses import replace
 from math import atan2
 
 from nav.admission import Admission
@@ -29,7 +28,6 @@ from nav.messages import (
     device,
 )
 from nav.parameters import Parameters
-from nav.parameters.fuzzy import SpeedParameters, SteeringParameters
 from nav.route.rddf import Route
 from nav.route.waypoints import route_frame, waypoints_of
 from nav.states.situation import FAR_M
@@ -78,10 +76,12 @@ class IonNavigator:
         """The state of the machine (Fig. 6.3)."""
         return self.high_level.machine.state
 
-    def retune(self, steering: SteeringParameters, speed: SpeedParameters) -> None:
-        """Let the fuzzy controllers decide by other terms from now on; all else goes on."""
-        self.parameters = replace(self.parameters, steering=steering, speed=speed)
-        self.high_level.retune(self.parameters)
+    def retune(self, parameters: Parameters) -> None:
+        """Let fuzzy controllers and states decide by other parameters from now on; what has been
+        made of the others goes on."""
+        self.parameters = parameters
+        self.health.parameters = parameters.states.health
+        self.high_level.retune(parameters)
 
     def step(self, time_ns: int, messages: Sequence[SensorMessage]) -> Outputs:
         """Take all messages since the last call, in order of delivery; say what to do.

@@ -2,7 +2,7 @@
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -25,6 +25,16 @@ class Gate:
     """Shape (2,), world frame, [m], on the left of who passes it forwards."""
     right_m: Floats
     """Shape (2,), world frame, [m]."""
+
+
+class Patience(NamedTuple):
+    """How long the judge looks at a vehicle that stays in one place."""
+
+    seconds: float = 240.0
+    metres: float = 1.0
+    """Farther away is another place."""
+    word: str = "stuck"
+    """The outcome, once patience has ended."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -56,8 +66,7 @@ class Course:
     goal_m: float | None = None
     """Finished when the reference point is this near to the last waypoint; None: when the nose
     crosses the line there."""
-    stuck_s: float = 240.0
-    """Without a metre of way for this long, the drive is over."""
+    patience: Patience = field(default_factory=Patience)
     facts: Mapping[str, Any] = field(default_factory=dict)
     """What the scenario says of this draw, for the figures."""
 

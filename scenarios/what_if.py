@@ -8,6 +8,7 @@ import pickle
 import zlib
 from bisect import bisect_right
 from collections.abc import Callable, Iterator
+from dataclasses import replace
 from typing import NamedTuple
 
 from nav.parameters.fuzzy import SpeedParameters, SteeringParameters
@@ -74,7 +75,8 @@ def rest(
         steering: `steering.toml`.
         speed: `speed.toml`.
     """
-    episode.navigator.retune(steering, speed)
+    navigator = episode.navigator
+    navigator.retune(replace(navigator.parameters, steering=steering, speed=speed))
     ticks = 0
     while episode.outcome is None:
         if ticks % REPORT_TICKS == 0:

@@ -8,7 +8,7 @@ from nav.messages import Decision, EgoEstimate
 from nav.route.corridor import depth
 from nav.route.geodesy import Frame
 from nav.route.waypoints import Waypoints
-from scenarios.course import Course, Gate
+from scenarios.course import Course, Gate, Patience
 from scenarios.verdicts import Judge
 from scenarios.verdicts.corridor import segments
 from scenarios.verdicts.shapes import Outline, bottom_m, distances_m, footprints
@@ -233,7 +233,7 @@ def test_contacts_are_merged_within_a_second_an_object():
 
 
 def test_stuck_after_a_minute_within_a_metre():
-    judge = Judge(replace(course(), stuck_s=60.0))
+    judge = Judge(replace(course(), patience=Patience(60.0)))
     drive(judge, ((20.0 + 0.4 * (k % 2), 0.0) for k in range(2999)))
     assert judge.outcome is None
     drive(judge, ((20.0, 0.0) for _ in range(5)), first=2999)

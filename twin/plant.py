@@ -78,6 +78,11 @@ class Plant(Body):
         return self._shim.applied
 
     @property
+    def gearbox(self) -> Gearbox:
+        """The linkage; its parameters may be changed on the way."""
+        return self._shim.gearbox
+
+    @property
     def drive_torque_n_m(self) -> float:
         """Of the driveline at this instant, all wheels together, [N m]."""
         return float(self.data.ctrl[self._actuators][len(SIDES) :].sum())

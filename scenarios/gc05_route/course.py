@@ -4,7 +4,7 @@ import re
 
 from nav.route import rddf
 from scenarios.chunks import Chunks
-from scenarios.course import Course, route_points_m
+from scenarios.course import Course, Patience, route_points_m
 from scenarios.failing import failing
 from scenarios.gc05_route import underpasses
 from scenarios.gc05_route.ground import ground
@@ -16,6 +16,9 @@ from scenarios.route.roadside import BESIDE_M
 from scenarios.scenario import load_scenario
 from scenarios.things import generator
 from twin.world import SIGHT_M, World
+
+PATIENCE = Patience(300.0, 3.0, "terminated")
+"""Of the officials (estimated: nobody has said how long they waited for ION)."""
 
 
 def build(seed: int, first: int | None = None, last: int | None = None) -> Course:
@@ -55,6 +58,7 @@ def build(seed: int, first: int | None = None, last: int | None = None) -> Cours
         half_width_m=route.half_width_m,
         speed_mps=route.speed_mps,
         time_limit_s=scenario.time_limit_s,
+        patience=PATIENCE,
     )
     return failing(course, _from_there(scenario.faults, start_m))
 

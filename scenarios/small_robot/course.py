@@ -12,7 +12,7 @@ import msgspec
 import numpy as np
 
 from nav.route import rddf
-from scenarios.course import FOOT_M, Course, Gate, route_points_m
+from scenarios.course import FOOT_M, Course, Gate, Patience, route_points_m
 from scenarios.geometry import Pose
 from scenarios.route.course import SKY
 from scenarios.small_robot.placement import Placement, draw, leaves_room
@@ -78,7 +78,7 @@ def build(seed: int) -> Course:
         time_limit_s=scenario.time_limit_s,
         gates=tuple(_opening(*pair) for pair in pairs),
         vehicle="pioneer",
-        stuck_s=scenario.stuck_s,
+        patience=Patience(scenario.stuck_s),
         facts={"leaves_room": all(leaves_room(p, HALF_WIDTH_M) for p in placed)},
     )
 

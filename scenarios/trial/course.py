@@ -7,7 +7,7 @@ from math import atan2, radians
 import numpy as np
 
 from nav.route import rddf
-from scenarios.course import FOOT_M, Course, route_points_m
+from scenarios.course import FOOT_M, Course, Patience, route_points_m
 from scenarios.failing import failing
 from scenarios.geometry import Pose
 from scenarios.route.course import SKY
@@ -58,7 +58,7 @@ def _course(name: str, trial: Trial, seed: int) -> Course:
         half_width_m=route.half_width_m,
         speed_mps=route.speed_mps,
         time_limit_s=trial.time_limit_s,
-        stuck_s=trial.stuck_s,
+        patience=Patience(trial.stuck_s),
     )
     return failing(course, trial.faults)
 

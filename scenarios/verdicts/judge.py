@@ -29,19 +29,20 @@ PATH_SPEED_MPS = 1.0
 PATH_CLEAR_M = 15.0
 TUNNEL_REACH_M = 4.0
 """Farther from its centre line a vehicle is beside the tunnel, not in it: on another leg."""
-STUCK_M = 1.0
 
 
 @dataclass
 class Movement:
     """Distance, top speed, and for how long the vehicle has stayed in one place."""
 
+    place_m: float = 1.0
+    """Farther away is another place."""
     distance_m: float = 0.0
     max_speed_mps: float = 0.0
     still_s: float = 0.0
     _last: tuple[float, float] | None = None
     _anchor: tuple[float, float, float] = (math.inf, math.inf, 0.0)
-    """x, y [m] and time [s] of the last place that it left by a metre."""
+    """x, y [m] and time [s] of the last place that it left."""
 
     def observe(self, truth: Truth) -> None:
         """Take the true state."""
@@ -50,7 +51,7 @@ class Movement:
             self.distance_m += math.hypot(x - self._last[0], y - self._last[1])
         self._last = (x, y)
         self.max_speed_mps = max(self.max_speed_mps, abs(truth.speed_mps))
-        if math.hypot(x - self._anchor[0], y - self._anchor[1]) >= STUCK_M:
+        if math.hypot(x - self._anchor[0], y - self._anchor[1]) >= self.place_m:
             self._anchor = (x, y, now_s)
         self.still_s = now_s - self._anchor[2]
 
@@ -76,7 +77,8 @@ class Judge:
         course = self.course
         owners = {o.owner or o.name: o.kind for o in course.world.obstacles}
         corridor = Waypoints(course.waypoint_m, course.half_width_m, course.speed_mps)
-        self.movement = Movement()
+        self.patience = course.patience
+        self.movement = Movement(course.patience.metres)
         self.progress = Progress(course.waypoint_m, course.goal_m)
         self.departures = Departures(corridor)
         self.gates = GateKeeper(course.gates, self.outline)
@@ -143,7 +145,7 @@ class Judge:
             "departure": self.departure_ends and self.departures.count > 0,
             "fell": self.falls.fell,
             "finished": self.progress.finished,
-            "stuck": self.movement.still_s >= self.course.stuck_s,
+            self.patience.word: self.movement.still_s >= self.patience.seconds,
             "timeout": time_s >= self.course.time_limit_s,
         }
         return next((word for word, is_so in over.items() if is_so), None)

@@ -4,6 +4,7 @@ import pickle
 import zlib
 from bisect import bisect_right
 from collections.abc import Iterator, Mapping
+from dataclasses import replace
 from pathlib import Path
 from typing import Any, NamedTuple, get_args
 
@@ -84,7 +85,7 @@ class Decisions:
     def _would(self, before: bytes, tick: Tick, instead: Mapping[str, str]) -> Explanation | None:
         p = parameters_from(self._files | {**instead}, self._vehicle)
         navigator: IonNavigator = pickle.loads(before)
-        navigator.retune(p.steering, p.speed)
+        navigator.retune(replace(navigator.parameters, steering=p.steering, speed=p.speed))
         return _explained(navigator, tick)
 
     def _state_before(self, call: int) -> bytes:

@@ -1,0 +1,1 @@
+"""`ion compare`: the same drive, gone on with in several ways, and where these part."""
