@@ -70,7 +70,8 @@ class Servo:
     def step(self, time_ns: int, dt_s: float, faults: Faults) -> float:
         """Advance by `dt_s`; the position at `time_ns`."""
         p = self.parameters
-        target = self._target(time_ns, faults) if faults else self._command.get(time_ns)
+        fails = self.name in faults
+        target = self._target(time_ns, faults) if fails else self._command.get(time_ns)
         self._runs = abs(target - self.position) > (0.0 if self._runs else p.dead_band)
         if self._runs:
             self.position = towards(self.position, target, p.rate_per_s * dt_s)

@@ -24,8 +24,12 @@ class Faults:
     """What frozen sensors said last."""
     _rng: dict[int, np.random.Generator] = field(default_factory=dict[int, np.random.Generator])
 
-    def __bool__(self) -> bool:
-        return bool(self.faults)
+    def __post_init__(self) -> None:
+        self._devices = frozenset(fault.device for fault in self.faults)
+
+    def __contains__(self, device: str) -> bool:
+        """Whether a device ever fails."""
+        return device in self._devices
 
     def reset(self, time_ns: int, device: str) -> None:
         """Somebody resets a sensor. A reset that is under way goes on."""

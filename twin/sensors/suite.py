@@ -56,7 +56,7 @@ class SensorSuite:
         for order, sensor in self._due[k % self._cycle]:
             now = clock.time_ns(k)
             message = sensor.measure(view, now)
-            if self.faults:
+            if sensor.name in self.faults:
                 self._fail(k, order, sensor, message)
             else:
                 heappush(self._queue, (k + sensor.schedule.delay, order, k, message))
