@@ -117,11 +117,18 @@ class Body(ABC):
         """Take what is around; where it streams past, it does not stand in the model yet."""
         if self._pool is None:
             return
-        x, y, _ = self.data.xpos[self._at.body].tolist()
-        for geom, thing in self._pool.place(self.model, self.data, things, (x, y)).items():
+        near = self._within_reach(things)
+        for geom, thing in self._pool.place(self.model, self.data, near).items():
             soft = thing is None or thing.kind in SOFT
             self._kind[geom] = _SOFT if soft else _OBSTACLE
             self._owner[geom] = "" if thing is None else thing.owner or thing.name
+
+    def _within_reach(self, things: Sequence[Obstacle]) -> Sequence[Obstacle]:
+        """Of what streams past only what the vehicle may meet before it looks around again."""
+        if self._pool is None:
+            return things
+        x, y, _ = self.data.xpos[self._at.body].tolist()
+        return pool.within_reach(things, (x, y))
 
     # ------------------------------------------------------------ driving
 

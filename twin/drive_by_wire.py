@@ -86,8 +86,8 @@ class DriveByWire:
 
     def _gear_fails(self, time_ns: int) -> bool:
         """The linkage stays where it is, on its way too."""
-        faults = self.faults
-        return "gear" in faults and (faults.silent(time_ns, "gear") or faults.frozen(time_ns, "gear"))
+        f = self.faults
+        return "gear" in f and (f.silent(time_ns, "gear") or f.frozen(time_ns, "gear"))
 
     def _stop(self) -> None:
         self._throttle.hold(0.0)

@@ -65,7 +65,7 @@ class Plant(Body):
     def surround(self, things: Sequence[Obstacle]) -> None:
         """See `Body`; brush holds the vehicle back."""
         super().surround(things)
-        bushes = [o for o in things if o.kind == "brush"]
+        bushes = [o for o in self._within_reach(things) if o.kind == "brush"]
         self._brush = Brush(bushes) if bushes else None
 
     def fail(self, faults: Faults) -> None:

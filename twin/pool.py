@@ -37,10 +37,9 @@ class Pool:
         }
 
     def place(
-        self, model: mujoco.MjModel, data: mujoco.MjData, things: Sequence[Obstacle],
-        at_m: tuple[float, float],
-    ) -> dict[int, Obstacle | None]:  # fmt: skip
-        """Let the things near a place stand in the model.
+        self, model: mujoco.MjModel, data: mujoco.MjData, near: Sequence[Obstacle]
+    ) -> dict[int, Obstacle | None]:
+        """Let things stand in the model, but what holds nothing back.
 
         Returns:
             What each geom of the pool stands for now, by its id.
@@ -49,17 +48,23 @@ class Pool:
             ValueError: more stand near than there are geoms.
         """
         stands: dict[int, Obstacle | None] = {}
-        near = [o for o in things if o.kind not in OPACITY and _gap_m(o, at_m) < REACH_M]
+        hard = [o for o in near if o.kind not in OPACITY]
         for shape, bodies in self._bodies.items():
-            due = [o for o in near if o.shape == shape]
+            due = [o for o in hard if o.shape == shape]
             if len(due) > len(bodies):
-                at = f"({at_m[0]:.0f}, {at_m[1]:.0f})"
-                raise ValueError(f"{len(due)} of shape {shape} near {at} m, at most {len(bodies)}")
+                x, y, _ = due[0].center_m
+                at = f"{due[0].name} at ({x:.0f}, {y:.0f}) m"
+                raise ValueError(f"{len(due)} of shape {shape} near {at}, at most {len(bodies)}")
             for body, thing in zip(bodies, [*due, *[None] * len(bodies)], strict=False):
                 geom = int(model.body_geomadr[body])
                 _put(model, data, body, geom, thing)
                 stands[geom] = thing
         return stands
+
+
+def within_reach(things: Sequence[Obstacle], at_m: tuple[float, float]) -> list[Obstacle]:
+    """What is near enough to stand in the pool."""
+    return [o for o in things if _gap_m(o, at_m) < REACH_M]
 
 
 def _gap_m(thing: Obstacle, at_m: tuple[float, float]) -> float:
