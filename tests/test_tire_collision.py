@@ -2,32 +2,19 @@
 
 import multiprocessing
 import pickle
-from contextlib import contextmanager
 
-import llvmlite.binding as llvm
 import mujoco
 import numpy as np
 import pytest
 from test_plant import bumpy, drive, flat
 
-from twin import mujoco_memory, tire_collision
+from twin import tire_collision
 from twin.plant import Plant
+from twin.tire_collision import stock
 
-HFIELD, ELLIPSOID = int(mujoco.mjtGeom.mjGEOM_HFIELD), int(mujoco.mjtGeom.mjGEOM_ELLIPSOID)
 CELLS, HALF_M = 32, 8.0
 TIRE_M = (0.3175, 0.142, 0.3175)
 tire_collision.install()
-
-
-@contextmanager
-def stock():
-    """MuJoCo's own function in the table."""
-    row = mujoco_memory.collision_table()[HFIELD]
-    ours, row[ELLIPSOID] = row[ELLIPSOID], llvm.address_of_symbol(tire_collision.STOCK_NAME)
-    try:
-        yield
-    finally:
-        row[ELLIPSOID] = ours
 
 
 class OneTire:

@@ -14,6 +14,8 @@ Compiled without fastmath, so that bits are the same everywhere. Compiled code c
 its own file: numba's cache notices changes only there.
 """
 
+from collections.abc import Iterator
+from contextlib import contextmanager
 from typing import Any, NamedTuple
 
 import llvmlite.binding as llvm
@@ -321,3 +323,15 @@ def install() -> None:
     llvm.add_symbol(STOCK_NAME, on_hfield[ellipsoid])
     _installed = _collision(at)
     on_hfield[ellipsoid] = _installed.address
+
+
+@contextmanager
+def stock() -> Iterator[None]:
+    """Once ours is installed: MuJoCo's own function is back in its table for a while."""
+    on_hfield = collision_table()[int(mujoco.mjtGeom.mjGEOM_HFIELD)]
+    ellipsoid = int(mujoco.mjtGeom.mjGEOM_ELLIPSOID)
+    ours, on_hfield[ellipsoid] = on_hfield[ellipsoid], llvm.address_of_symbol(STOCK_NAME)
+    try:
+        yield
+    finally:
+        on_hfield[ellipsoid] = ours

@@ -42,7 +42,7 @@ class Lidar:
 
     def measure(self, view: View, time_ns: int) -> LidarScan:
         """The scan whose last beam is of this instant."""
-        p, rays = self._p, self._rays(view)
+        p, rays = self._p, self.rays(view)
         true_m, what = cast_hits(self._sight.solid, *rays[:2], p.max_range_m, rays.rotations)
         true_m[true_m > self._reach_m.of(what)] = p.max_range_m
         edge = self._edges.random(p.beams)
@@ -55,7 +55,12 @@ class Lidar:
         counts = _counts(seen_m, noise, self._bias_m, p.noise_sd_m, p.max_range_m)
         return LidarScan(time_ns, self.name, lidar_range_m(counts))
 
-    def _rays(self, view: View) -> Rays:
+    @property
+    def max_range_m(self) -> float:
+        """Farther away nothing is seen, [m]."""
+        return self._p.max_range_m
+
+    def rays(self, view: View) -> Rays:
         """From where and whereto each beam looked, at its own time."""
         velocity, turn = view.site_velocity(self.name)
         position, rotation = self._mounting.pose(view, self.name)

@@ -46,6 +46,8 @@ class SensorSuite:
             raise ValueError(f"no sensor {unknown[0]!r}; known are {', '.join(names)}")
         self._cycle = lcm(*(sensor.schedule.period for sensor in sensors))
         kept = [(i, s) for i, s in enumerate(sensors) if s.name not in disabled]
+        self.fitted = [sensor for _, sensor in kept]
+        """All that are not disabled, in their order."""
         self._due = [[p for p in kept if p[1].schedule.due(k)] for k in range(self._cycle)]
         self.faults = Faults(world.faults, seed) if faults is None else faults
         self._queue: list[tuple[int, int, int, SensorMessage]] = []
