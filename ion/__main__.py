@@ -29,6 +29,7 @@ def main() -> NoReturn:
 def _command() -> int:
     import tyro
 
+    from ion.bench.options import Options as BenchOptions
     from ion.calibrate.options import Options as CalibrateOptions
     from ion.compare.options import Options as CompareOptions
     from ion.explain.options import Options as ExplainOptions
@@ -111,6 +112,13 @@ def _command() -> int:
         from ion.view import command
 
         return command.view(options)
+
+    @app.command
+    def bench(options: Annotated[BenchOptions, tyro.conf.arg(name="")]) -> int:
+        """Measure what a simulated second costs: against bare MuJoCo and Embree, part by part."""
+        from ion.bench import command
+
+        return command.bench(options)
 
     @app.command
     def states() -> int:

@@ -1,0 +1,1 @@
+"""`ion bench`: what a simulated second costs, part by part, and against what others would take."""
