@@ -35,11 +35,10 @@ check: .venv/.dev browser
 	$(BIN)/lint-imports
 	$(BIN)/pytest -n auto
 
-# What an episode costs, part by part; then twenty seeds of the NQE, two at a time: what a change
-# to the navigator is measured by.
-bench: .venv/.base
-	$(BIN)/python tests/bench_raycast.py
+# What a simulated second costs, part by part and against others; then twenty seeds of the NQE, two
+# at a time: what a change to the navigator is measured by.
+bench: .venv/.dev
+	$(BIN)/ion bench
 	$(BIN)/python tests/bench_physics.py
-	$(BIN)/python tests/bench_episode.py
 	$(BIN)/python tests/bench_random_field.py
 	$(BIN)/ion drive nqe --seeds 0-19 --jobs 2 --out runs/bench --json

@@ -14,8 +14,8 @@ from dataclasses import fields
 from typing import Any
 
 import numpy as np
-from bench_episode import Meter
 
+from ion.bench.meter import Meter, Parts, metering
 from nav.admission import Admission
 from nav.control.low_level import LowLevelController
 from nav.fusion.ego_state import EgoState
@@ -30,7 +30,7 @@ from scenarios.nqe import build
 from scenarios.parameter_files import parameter_texts
 
 PASSES = 10
-PARTS = {
+PARTS: Parts = {
     "admission": [(Admission, "admit")],
     "ego state": [(EgoState, "update"), (EgoState, "estimate"), (EgoState, "pose_at")],
     "map": [
@@ -41,7 +41,6 @@ PARTS = {
     "high level": [(HighLevelController, "decide")],
     "low level": [(LowLevelController, "step"), (LowLevelController, "command_is")],
 }
-"""What belongs to each part; what it calls of another part is the other's."""
 
 Step = tuple[int, Sequence[SensorMessage]]
 """What the navigator is given in one call."""
@@ -69,9 +68,7 @@ def navigated(seed: int, steps: list[Step], meter: Meter) -> list[list[float]]:
     navigator = IonNavigator(parameters_from(parameter_texts()), route)
     spent: list[list[float]] = []
     for time_ns, messages in steps:
-        meter.spent_s = dict.fromkeys(meter.spent_s, 0.0)
-        meter.switch("rest")
-        meter.spent_s["rest"] = 0.0
+        meter.restart()
         navigator.step(time_ns, messages)
         meter.switch("rest")
         spent.append(list(meter.spent_s.values()))
@@ -102,11 +99,8 @@ def main() -> None:
     seconds = float(sys.argv[1]) if len(sys.argv) > 1 else 30.0
     seed = int(sys.argv[2]) if len(sys.argv) > 2 else 0
     steps = recorded(seconds, seed)
-    meter = Meter(PARTS)
-    for part, owned in PARTS.items():
-        for owner, name in owned:
-            setattr(owner, name, meter.metered(part, getattr(owner, name)))
-    passes = [navigated(seed, steps, meter) for _ in range(PASSES)]
+    with metering(PARTS) as meter:
+        passes = [navigated(seed, steps, meter) for _ in range(PASSES)]
     driven_s = steps[-1][0] * 1e-9
     least_s = np.array(passes).min(axis=0).sum(axis=0).tolist()
     least = dict(zip(meter.spent_s, least_s, strict=True))

@@ -8,9 +8,8 @@ about 2 ms.
 import sys
 import time
 
-from bench_episode import Meter
-
 import scenarios.episode
+from ion.bench.meter import Parts, metering
 from nav.control.low_level import LowLevelController
 from nav.fusion.ego_state import EgoState
 from nav.fusion.obstacle_map import ObstacleMap
@@ -23,7 +22,7 @@ from tape.digest import Digest
 from twin.dubins import DubinsSimulator, sensors
 
 SENSORS = (sensors.FieldScan, sensors.FieldGps, sensors.FieldCompass, sensors.FieldOdometry)
-PARTS = {
+PARTS: Parts = {
     "field, feasibility": [(course, "build")],
     "start": [(Episode, "__init__")],
     "plant": [(DubinsSimulator, "advance"), (DubinsSimulator, "truth")],
@@ -36,7 +35,6 @@ PARTS = {
     "judge": [(Judge, "observe")],
     "encode, digest": [(scenarios.episode, "record"), (Digest, "update")],
 }
-"""What belongs to each part; what it calls of another part is the other's."""
 
 
 def drive(seed: int) -> float:
@@ -50,16 +48,12 @@ def drive(seed: int) -> float:
 def main() -> None:
     """Print the table."""
     episodes = int(sys.argv[1]) if len(sys.argv) > 1 else 10
-    meter = Meter(PARTS)
-    for part, owned in PARTS.items():
-        for owner, name in owned:
-            setattr(owner, name, meter.metered(part, getattr(owner, name)))
-    drive(0)  # what is compiled, is compiled now
-    meter.switch("rest")
-    meter.spent_s = dict.fromkeys(meter.spent_s, 0.0)
-    start_s = time.process_time()
-    driven_s = [drive(seed) for seed in range(episodes)]
-    meter.switch("rest")
+    with metering(PARTS) as meter:
+        drive(0)  # what is compiled, is compiled now
+        meter.restart()
+        start_s = time.process_time()
+        driven_s = [drive(seed) for seed in range(episodes)]
+        meter.switch("rest")
     spent_s = time.process_time() - start_s
     wall_s, total = sum(meter.spent_s.values()), spent_s / sum(driven_s) * 1e3
     for part, part_s in meter.spent_s.items():

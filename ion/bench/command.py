@@ -3,6 +3,7 @@
 import json
 import pickle
 import sys
+from collections.abc import Iterable
 from dataclasses import asdict
 
 from rich.console import Console
@@ -13,7 +14,7 @@ from ion.bench import embree
 from ion.bench.figures import Figures, figures
 from ion.bench.options import Options, checked
 from ion.bench.parts import shares
-from ion.bench.race import cut, drive_s, race
+from ion.bench.race import Slice, cut, drive_s, race
 from ion.errors import UsageError
 from scenarios.course import Course
 from scenarios.episode import Episode
@@ -52,12 +53,17 @@ def measured(course: Course, seed: int, ticks: int) -> Figures:
     simulator = episode.simulator
     assert isinstance(simulator, Simulator)  # all but the one that was refused
     each = cut(ticks)
-    console = Console(stderr=True)
-    drive = race(episode, simulator, each, embree.is_installed())
-    slices = list(track(drive, "measuring", len(each), console=console, transient=True))
+    slices = list(_shown(race(episode, simulator, each, embree.is_installed()), len(each)))
     if not slices:
         raise UsageError(f"{course.name}: {episode.outcome} too early, expected a longer drive")
     return figures(each, slices, shares(again, sum(each[: len(slices)])))
+
+
+def _shown(slices: Iterable[Slice], count: int) -> Iterable[Slice]:
+    """The same, with a bar that moves where somebody looks."""
+    console = Console(stderr=True)
+    quiet = not console.is_terminal
+    return track(slices, "measuring", count, console=console, transient=True, disable=quiet)
 
 
 def _table(found: Figures) -> Table:

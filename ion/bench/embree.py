@@ -59,7 +59,8 @@ def _ground(ground: Ground) -> Mesh:
     n = len(ground.z)
     along = ground.spacing * np.arange(n)
     x, y = np.meshgrid(ground.x0 + along, ground.y0 + along)
-    return np.stack([x, y, ground.z], axis=-1).reshape(-1, 3), _lattice(n)
+    vertices = np.stack([x, y, ground.z], axis=-1, dtype=np.float64)
+    return vertices.reshape(-1, 3), _lattice(n)
 
 
 @lru_cache(maxsize=1)
