@@ -17,7 +17,7 @@ if TYPE_CHECKING:
 class Options:
     """Which drive is measured, and for how long."""
 
-    scenario: Annotated[Positional[str], arg(metavar="SCENARIO")] = "nqe"
+    scenario: Annotated[Positional[str], arg(metavar="[SCENARIO]")] = "nqe"
     """Name of a scenario."""
     seed: Annotated[int, arg(metavar="N")] = 0
     """Of the drive."""
