@@ -2,15 +2,17 @@
 
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Annotated
+from typing import TYPE_CHECKING, Annotated
 
 from tyro.conf import Positional, UseAppendAction, arg
 
-from ion.compare.variants import Comparison
 from ion.courses import scenario_source
 from ion.errors import UsageError
 from ion.options import listed
 from ion.out_file import check_file
+
+if TYPE_CHECKING:
+    from ion.compare.variants import Comparison
 
 
 @dataclass(frozen=True)
@@ -38,13 +40,14 @@ class Options:
     """One JSON object a variant on standard output instead of a table."""
 
 
-def comparison_of(options: Options) -> tuple[Comparison, list[int]]:
+def comparison_of(options: Options) -> "tuple[Comparison, list[int]]":
     """What is compared, and over which seeds; all that can be wrong is found first.
 
     Raises:
         UsageError: an option is wrong.
         NavError: a stretch that the route does not have.
     """
+    from ion.compare.variants import Comparison
     from scenarios.parameter_files import parameters_of
     from scenarios.variation import parse
 
