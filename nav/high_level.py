@@ -107,7 +107,8 @@ class HighLevelController:
         boundaries = self._boundaries(obstacles)
         troubled = self.machine.memory.trouble.arc_m is not None
         self._grid = self._grid if troubled else None
-        ahead = self._route_ahead(ego)
+        turned = wrapped(ego.heading_rad - float(self.route.heading_rad[here.index]))
+        ahead = self._route_ahead(ego, turned)
         return Situation(
             time_ns=time_ns,
             ego=ego,
@@ -123,6 +124,7 @@ class HighLevelController:
             sonar_m=senses.sonar_m,
             arc_m=here.arc_m,
             far_goal_m=self._far_goal(boundaries) if troubled else (0.0, 0.0),
+            turned_rad=turned,
             half_width_m=float(self.waypoints.half_width_m[self._segment]),
             gear=senses.vehicle.gear if senses.vehicle else Gear.HIGH,
             shifting=bool(senses.vehicle and senses.vehicle.shifting),
@@ -141,10 +143,9 @@ class HighLevelController:
         V0 = float(self.V0[self.here.index])
         return min(V0, self.parameters.states.alarm.lost_mps) if health.lost else V0
 
-    def _route_ahead(self, ego: EgoEstimate) -> Curve:
+    def _route_ahead(self, ego: EgoEstimate, turned: float) -> Curve:
         here, rate = self.here, curvature_rate(self.parameters.vehicle.steering)
         local = self.parameters.planning.local_path
-        turned = wrapped(ego.heading_rad - float(self.route.heading_rad[here.index]))
         join_m = join_length(here.cross_track_m, ego.speed_mps, rate, local)
         return route_ahead(
             self.route, here.index, here.cross_track_m, turned, join_m, local.look_ahead_m

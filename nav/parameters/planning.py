@@ -91,6 +91,14 @@ class SpeedProfileParameters:
     """While an obstacle is on the smooth path: slow enough to swerve."""
     narrow_mps: float
     """Where the path runs inside a safe boundary."""
+    settle_mps: float
+    """Off the smooth path ..."""
+    settle_m: float
+    """... by so much to the side, or ..."""
+    settle_rad: float
+    """... in heading, where ..."""
+    settle_half_width_m: float
+    """... the corridor is narrower than this to each side."""
 
 
 @dataclass(frozen=True)

@@ -1,10 +1,11 @@
 """Path-Point Keeping: follow the smooth path of the route (section 6.4.1)."""
 
-from math import sqrt
+from math import inf, sqrt
 
 from nav.angles import wrapped
 from nav.messages import FollowPath
 from nav.parameters import Parameters
+from nav.parameters.planning import SpeedProfileParameters
 from nav.planning.local_path import path_length, pathpoints
 from nav.planning.speed import set_point
 from nav.states.memory import Memory
@@ -23,7 +24,7 @@ def plan(s: Situation, memory: Memory, p: Parameters) -> Plan:
     assert memory.pathpoint_m is not None
     direction = float(s.route_ahead.heading_rad[min(4, len(s.route_ahead.heading_rad) - 1)])
     turn = abs(wrapped(direction - s.ego.heading_rad))
-    limit = min(s.V0_mps, _through_narrows(s, p))
+    limit = min(s.V0_mps, _through_narrows(s, p), _settling(s, p.planning.speed))
     clear = s.route_clear.real_m
     blocked = clear < s.route_ahead.arc_m[-1]  # the finish is no obstacle
     distance = clear if blocked else p.planning.local_path.look_ahead_m
@@ -32,6 +33,13 @@ def plan(s: Situation, memory: Memory, p: Parameters) -> Plan:
     return Plan(
         command, speed.speed_mps, direction, distance, distance, replanned=reason, by_rules=speed
     )
+
+
+def _settling(s: Situation, p: SpeedProfileParameters) -> float:
+    """Beyond the paper: where the corridor leaves no room to swing, the vehicle comes back to the
+    smooth path before it makes haste; the steering takes a second from side to side."""
+    astray = abs(s.cross_track_m) > p.settle_m or abs(s.turned_rad) > p.settle_rad
+    return p.settle_mps if astray and s.half_width_m < p.settle_half_width_m else inf
 
 
 def _through_narrows(s: Situation, p: Parameters) -> float:

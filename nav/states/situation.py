@@ -40,8 +40,10 @@ class Situation:
     """Way along the route so far."""
     far_goal_m: tuple[float, float] = (0.0, 0.0)
     """In trouble: the farthest point of the smooth path on the wide grid that is free."""
-    half_width_m: float = 0.0
+    half_width_m: float = FAR_M
     """Of the corridor here."""
+    turned_rad: float = 0.0
+    """How far left of the smooth path's heading the vehicle's is."""
     gear: Gear = Gear.HIGH
     shifting: bool = False
     health: Health = field(default_factory=Health)
