@@ -66,7 +66,9 @@ class HighLevelController:
         self._corridor_grid = _corridor_grid(waypoints, parameters)
         self._wide_corridor = _corridor_grid(waypoints, parameters)
         self.route: SmoothPath = smooth_path(waypoints)
-        self.V0: Floats = speed_profile(self.route, parameters.planning.speed)
+        self.V0: Floats = speed_profile(
+            self.route, waypoints.half_width_m[self.route.segment], parameters.planning.speed
+        )
         self.machine = Machine(parameters)
         self.here = Projection(0, 0.0, 0.0)
         self._arrived = False

@@ -82,9 +82,11 @@ class SpeedProfileParameters:
     cap_mps: float
     """The vehicle's own limit ..."""
     open_mps: float
-    """... and the one on an open track: one whose limit is at least ..."""
+    """... and the one on an open track: its limit is at least ..."""
     open_limit_mps: float
-    """... this."""
+    """... this, and its corridor ..."""
+    open_half_width_m: float
+    """... narrower than this: nothing can stand in it, since one could not pass."""
     limit_factor: float
     """Share of the speed limit that is aimed at, so that control errors stay below it."""
     avoid_mps: float

@@ -7,14 +7,16 @@ from nav.parameters.planning import SpeedProfileParameters
 from nav.route.smooth_path import SmoothPath
 
 
-def speed_profile(route: SmoothPath, p: SpeedProfileParameters) -> Floats:
-    """V0 at every sample of the smooth path, shape (k,), [m/s].
+def speed_profile(route: SmoothPath, half_width_m: Floats, p: SpeedProfileParameters) -> Floats:
+    """V0 at every sample of the smooth path, shape (k,), [m/s], given the corridor's half-width at
+    each, shape (k,).
 
     Never above the speed limit, the cap or what the bend allows, and falling no faster towards
     what lies ahead than `braking_mps2`.
     """
     bend = np.sqrt(p.lateral_mps2 / np.maximum(np.abs(route.curvature_per_m), 1e-4))
-    cap = np.where(route.speed_limit_mps >= p.open_limit_mps, p.open_mps, p.cap_mps)
+    fast, clear = route.speed_limit_mps >= p.open_limit_mps, half_width_m < p.open_half_width_m
+    cap = np.where(fast & clear, p.open_mps, p.cap_mps)
     limit = np.minimum(p.limit_factor * route.speed_limit_mps, cap)
     squared = np.minimum(limit, bend) ** 2
     gained = 2.0 * p.braking_mps2 * route.arc_m

@@ -5,6 +5,7 @@ from math import radians
 
 import numpy as np
 
+from scenarios.geometry import Pose
 from scenarios.route.corridor import CHUNK_M, Corridor
 from scenarios.route.roadside import FREE_M, Roadside
 from scenarios.things import BALE_HALF_M, BEAM_HALF_M, CAR_HALF_M, Site, extent_m, generator
@@ -21,6 +22,9 @@ SLOTS_M = ((18.0, 36.0), (66.0, 82.0))
 ACROSS_SHARE = 0.8
 """Of the slots that have room for it."""
 TRIES = 4
+LEAST_M, RUBBLE_HALF_M = 0.2, 0.4
+"""Rubble closes the side on which the thing stands: there is one way around it, at least FREE_M
+wide, and no second one that is nearly wide enough."""
 SHARES = {"rock": 0.45, "car": 0.2, "tank_trap": 0.15, "hay_bale": 0.2}
 TRAP_M = 0.7 * BEAM_HALF_M[0]
 """Of three beams, a third of a circle apart, two reach at least so far to the sides."""
@@ -104,8 +108,13 @@ class Wayside:
         extent = extent_m(HALF_M[kind], turn)
         cover = float(rng.uniform(COVER_M[0], min(COVER_M[1], half_width - FREE_M, extent)))
         left = side * (extent - cover)
-        pose = self.corridor.pose(place).moved(0.0, left, turn)
-        return _stands(Site(f"{kind}_across_{k:04d}_{slot}", kind, self.terrain, pose))
+        line = self.corridor.pose(place)
+        pose = line.moved(0.0, left, turn)
+        site = Site(f"{kind}_across_{k:04d}_{slot}", kind, self.terrain, pose)
+        taken = 2.0 * extent - cover
+        rest = (half_width - taken) / 2.0
+        beside = line.moved(0.0, side * (taken + rest))
+        return _stands(site) + (_rubble(site, beside, rest) if rest > LEAST_M else [])
 
     def _straight(
         self, k: int, rng: np.random.Generator, slot_m: tuple[float, float]
@@ -118,6 +127,11 @@ class Wayside:
             if min(along, rest) > CALM_M:
                 return station
         return None
+
+
+def _rubble(site: Site, pose: Pose, half_m: float) -> list[Obstacle]:
+    """What lies between a thing and the corridor's edge on its own side."""
+    return [site._replace(kind="rock").box("rubble", pose, (RUBBLE_HALF_M, half_m), 0.8)]
 
 
 def _stands(site: Site) -> list[Obstacle]:
