@@ -41,12 +41,13 @@ def positions_m(plan: Plan) -> Floats:
 def _turn_back(robotic: Robotic, spacing: Floats, beside: Floats) -> None:
     """Lay the two turns into distances and headings beside the ring's."""
     first, last = robotic.waypoints
-    half = radians(robotic.turn_deg) / 2.0
-    side = np.copysign(half, beside[robotic.segments.start - 1])
+    one, other = (radians(turn) for turn in robotic.turn_deg)
+    side = np.copysign(1.0, beside[robotic.segments.start - 1])
     spacing[robotic.segments] = robotic.spacing
-    beside[robotic.segments] = side
-    beside[first - 1 : last - 1] = -side
-    beside[robotic.segments.stop] = 0.4 * side
+    beside[robotic.segments] = side * one / 2.0
+    beside[first - 1 : last - 1] = -side * one / 2.0
+    beside[last - 1 : robotic.segments.stop] = side * (other - one / 2.0)
+    beside[robotic.segments.stop] = side * (other - one / 2.0) / 2.0
 
 
 def _stretch(rng: np.random.Generator, plan: Plan, stretch: Stretch) -> tuple[Floats, Floats]:

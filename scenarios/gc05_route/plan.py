@@ -39,7 +39,7 @@ class Robotic(msgspec.Struct, forbid_unknown_fields=True, frozen=True):
 
     waypoints: tuple[int, int]
     """Numbers of the corners."""
-    turn_deg: float
+    turn_deg: tuple[float, float]
     spacing: float
     """Of the waypoints around them, relative."""
     half_width_ft: float
