@@ -133,6 +133,15 @@ def test_a_scanner_that_sees_nothing_is_not_frozen():
     assert monitor.doubted == {}
 
 
+@pytest.mark.parametrize(("brake", "doubted"), [(1.0, {}), (0.0, {"odometry"})])
+def test_braked_wheels_may_slide(brake, doubted):
+    def slide(state):
+        return replace(state, wheel_speed_mps=state.wheel_speed_mps - 2.0, brake=brake)
+
+    monitor = drive(VehicleState, 2.5, slide, warm(VehicleState))
+    assert set(monitor.doubted) == set(doubted)
+
+
 def test_after_an_outage_a_receiver_may_be_elsewhere():
     monitor, rng = warm(GpsFix), np.random.default_rng(1)
     drive(GpsFix, 1.0, lambda m: replace(m, quality=GpsQuality.NONE), monitor)

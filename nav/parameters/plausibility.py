@@ -61,6 +61,8 @@ class PlausibilityParameters:
     """After an outage a receiver may be anywhere, for so long."""
     wheels_mps: float
     """Wheels against the speed of the last fix."""
+    sliding_brake: float
+    """Wheels that are braked harder may be slower."""
     wheel_step_mps: float
     """Most wheels do not change so fast from one message to the next."""
     compass_rad: float

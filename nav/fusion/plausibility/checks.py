@@ -135,7 +135,8 @@ class Wheels:
         if abs(apart) <= p.wheels_mps:
             return ""
         spinning = not moving and state.throttle > 0.1  # in a hole, say: that is no fault
-        return None if spinning else f"{apart:.1f} m/s beside GPS"
+        sliding = apart < 0.0 and state.brake > p.sliding_brake  # neither is that
+        return None if spinning or sliding else f"{apart:.1f} m/s beside GPS"
 
     def _at(self, time_ns: int) -> float:
         """The median at the time of a fix; the oldest that is known."""
