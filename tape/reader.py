@@ -68,8 +68,10 @@ def read_packed(path: Path, prefix: str | tuple[str, ...] = PREFIX) -> Iterator[
                 yield Packed(topic, item.log_time, kind, item.data)
         elif isinstance(item, Schema):
             schemas[item.id] = item.name
-        elif isinstance(item, Channel) and item.topic.startswith(prefix):
-            channels[item.id] = (item.topic, _kind(path, item.topic, schemas[item.schema_id]))
+        elif isinstance(item, Channel):
+            channels.pop(item.id, None)  # of the segment before
+            if item.topic.startswith(prefix):
+                channels[item.id] = (item.topic, _kind(path, item.topic, schemas[item.schema_id]))
 
 
 def attachments(path: Path) -> dict[str, bytes]:

@@ -101,8 +101,8 @@ def digest_of(tape):
 
 def test_going_on_gives_the_same_bits(short, tmp_path):
     source = scenario_source("gc05_route", {"first": 300, "last": 304})
-    whole = drive_until(Job(source, tmp_path / "whole", "inputs"), None)
-    broken = drive_until(Job(source, tmp_path / "broken", "inputs"), 110.0)
+    whole = drive_until(Job(source, tmp_path / "whole", "full"), None)
+    broken = drive_until(Job(source, tmp_path / "broken", "full"), 110.0)
     assert broken["outcome"] == "interrupted"
     start = last_checkpoint(Path(broken["log"]))
     assert start.segment == 2
