@@ -26,11 +26,12 @@ class SpeedController:
         if error < -p.brake_band_mps:
             self.integral = min(self.integral, 0.0)
             return 0.0, -p.brake_proportional * (error + p.brake_band_mps)
-        return self._throttle(error, dt_s), 0.0
+        return self._throttle(error, self.ramp_mps < set_point_mps, dt_s), 0.0
 
-    def _throttle(self, error: float, dt_s: float) -> float:
+    def _throttle(self, error: float, rises: bool, dt_s: float) -> float:
         p = self.parameters
         base = p.feedforward + p.feedforward_per_mps * self.ramp_mps + p.proportional * error
+        base += p.feedforward_per_mps2 * p.acceleration_mps2 if rises else 0.0
         throttle = base + self.integral
         if 0.0 < throttle < 1.0:
             wound = self.integral + p.integral * error * dt_s

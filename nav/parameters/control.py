@@ -24,6 +24,8 @@ class SpeedControl:
 
     feedforward_per_mps: float
     feedforward: float
+    feedforward_per_mps2: float
+    """While the set point rises."""
     proportional: float
     integral: float
     integral_limit: float
