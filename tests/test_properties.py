@@ -42,7 +42,8 @@ from scenarios.dead_end.course import build
 from scenarios.episode import Episode
 from scenarios.parameter_files import parameter_texts
 
-STARTS = {0: "", 120: "path_point_keeping", 790: "obstacle_avoidance"}
+AVOIDING = 700
+STARTS = {0: "", 120: "path_point_keeping", AVOIDING: "obstacle_avoidance"}
 """Ticks of the drive at which the meddling begins, and the navigator's state there."""
 TICKS = 180
 """So long it lasts: longer than the ego state's patience with what it refuses."""
@@ -200,7 +201,7 @@ def test_a_gps_that_is_elsewhere_after_an_outage_is_believed():
 
 def fixed_by(fixes):
     """The navigator after a stretch of the drive with other fixes."""
-    navigator, start = pickle.loads(drive().navigator[790]), 790
+    navigator, start = pickle.loads(drive().navigator[AVOIDING]), AVOIDING
     for tick, (now_ns, sensed) in enumerate(drive().given[start : start + TICKS]):
         others = [fixes(tick, m) if isinstance(m, GpsFix) else m for m in sensed]
         assert_sound(navigator.step(now_ns, others), navigator)
