@@ -9,12 +9,11 @@ from rich.console import Console
 from rich.progress import BarColumn, Progress, TextColumn
 from rich.table import Table
 
-from nav.route.rddf import FOOT_M, MPH_MPS
+from nav.route.rddf import MILE_M, MPH_MPS
 
 if TYPE_CHECKING:
     from scenarios.episode import Episode
 
-MILE_M = 5280 * FOOT_M
 SHORT_M = 160.0
 """A tenth of a mile."""
 EVERY = 25

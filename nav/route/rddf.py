@@ -16,6 +16,7 @@ from nav.route.geodesy import Floats, ecef
 
 FOOT_M = 0.3048
 """International foot (exact, by definition)."""
+MILE_M = 5280 * FOOT_M
 MPH_MPS = 0.44704
 """International mile an hour (exact, by definition)."""
 MAX_JUMP_M = 10_000.0

@@ -1,6 +1,6 @@
 """The race as a course: the whole of it, or a stretch on which the same things stand."""
 
-import re
+from dataclasses import replace
 
 from nav.route import rddf
 from scenarios.chunks import Chunks
@@ -60,7 +60,7 @@ def build(seed: int, first: int | None = None, last: int | None = None) -> Cours
         time_limit_s=scenario.time_limit_s,
         patience=PATIENCE,
     )
-    return failing(course, _from_there(scenario.faults, start_m))
+    return _from_there(failing(course, scenario.faults), start_m)
 
 
 def _chunks(wayside: Wayside, start_m: float, end_m: float) -> Chunks:
@@ -79,7 +79,8 @@ def _lines(first: int, last: int) -> str:
     return "".join(text().splitlines(keepends=True)[first - 1 : last])
 
 
-def _from_there(faults: list[str], start_m: float) -> list[str]:
-    """The faults that are still to come, by the way from where the drive begins."""
-    places = [(line, float(re.search(r"([\d.]+)m", line)[1]) - start_m) for line in faults]  # pyright: ignore
-    return [re.sub(r"[\d.]+m", f"{way:.0f}m", line) for line, way in places if way >= 0.0]
+def _from_there(course: Course, start_m: float) -> Course:
+    """With the faults that are still to come, by the way from where the drive begins."""
+    ahead = [fault for fault in course.world.faults if fault.begins >= start_m]
+    faults = tuple(replace(f, begins=float(round(f.begins - start_m))) for f in ahead)
+    return replace(course, world=replace(course.world, faults=faults))

@@ -1,11 +1,17 @@
 """Speed limits and half-widths, distributed as in the real file of GC04."""
 
+from collections.abc import Sequence
+
 import numpy as np
+from numpy.typing import NDArray
 
 from scenarios.course import Floats
 from scenarios.gc05_route import underpasses
 from scenarios.gc05_route.plan import Plan
+from scenarios.route.statistics import turns_of
 from scenarios.things import generator
+
+Ints = NDArray[np.int64]
 
 BLOCK = 8
 """Waypoints with limits of their own: real limits change every few hundred metres."""
@@ -18,15 +24,10 @@ CHANCE = 0.35
 def speeds_mph(plan: Plan, position_m: Floats) -> Floats:
     """Speed limit from each waypoint to the next, shape (n,); 0 at the finish."""
     length = np.append(np.hypot(*np.diff(position_m, axis=0).T), 0.0)
-    block = np.arange(plan.waypoints) // BLOCK
-    rank = _ease(plan, position_m, "speed")[block]
-    order = np.argsort(rank, kind="stable")
+    order = _order(plan, position_m, "speed")
     share = np.cumsum(length[order]) / length.sum()
-    at = np.searchsorted(np.cumsum(plan.speeds.share), share).clip(max=len(plan.speeds.mph) - 1)
-    mph = np.empty(plan.waypoints)
-    mph[order] = np.array(plan.speeds.mph)[at]
-    for k in underpasses.segments(position_m):
-        mph[k] = UNDERPASS_MPH
+    mph = _dealt(order, share, plan.speeds.mph, plan.speeds.share)
+    mph[underpasses.segments(position_m)] = UNDERPASS_MPH
     mph[plan.robotic.segments] = plan.robotic.mph
     mph[-1] = 0.0
     return mph
@@ -34,24 +35,36 @@ def speeds_mph(plan: Plan, position_m: Floats) -> Floats:
 
 def half_widths_ft(plan: Plan, position_m: Floats) -> Floats:
     """Half-width of the corridor from each waypoint to the next, shape (n,)."""
-    rank = _ease(plan, position_m, "width")[np.arange(plan.waypoints) // BLOCK]
-    order = np.argsort(rank, kind="stable")
+    order = _order(plan, position_m, "width")
     share = (np.arange(plan.waypoints) + 0.5) / plan.waypoints
-    at = np.searchsorted(np.cumsum(plan.widths.share), share).clip(max=len(plan.widths.ft) - 1)
-    feet = np.empty(plan.waypoints)
-    feet[order] = np.array(plan.widths.ft)[at]
-    for k in underpasses.segments(position_m):
-        feet[k] = UNDERPASS_FT
+    feet = _dealt(order, share, plan.widths.ft, plan.widths.share)
+    feet[underpasses.segments(position_m)] = UNDERPASS_FT
     feet[plan.robotic.segments] = plan.robotic.half_width_ft
     return feet
+
+
+def _dealt(
+    order: Ints, share: Floats, values: Sequence[float], shares: Sequence[float]
+) -> Floats:
+    """Values by waypoint: dealt out in an `order`, the first of them up to the first of `shares`,
+    where each waypoint ends a `share` (n,) of the whole."""
+    at = np.searchsorted(np.cumsum(shares), share).clip(max=len(values) - 1)
+    dealt = np.empty(len(order))
+    dealt[order] = np.array(values)[at]
+    return dealt
+
+
+def _order(plan: Plan, position_m: Floats, name: str) -> Ints:
+    """The waypoints (n,), the least easy first."""
+    ease = _ease(plan, position_m, name)[np.arange(plan.waypoints) // BLOCK]
+    return np.argsort(ease, kind="stable")
 
 
 def _ease(plan: Plan, position_m: Floats, name: str) -> Floats:
     """How easy each block is, (b,): its country, less its turns, and chance."""
     rng = generator(plan.seed, name)
     ease = np.repeat([s.ease for s in plan.stretches], [s.waypoints for s in plan.stretches])
-    heading = np.unwrap(np.arctan2(*np.diff(position_m, axis=0).T[::-1]))
-    turn = np.concatenate([[0.0], np.abs(np.diff(heading)), [0.0]])
+    turn = np.concatenate([[0.0], np.abs(turns_of(position_m)), [0.0]])
     blocks = -(-plan.waypoints // BLOCK)
     chance = CHANCE * rng.standard_normal(blocks)
     parts = [slice(b * BLOCK, (b + 1) * BLOCK) for b in range(blocks)]

@@ -4,12 +4,11 @@ from math import pi, radians
 
 import numpy as np
 
+from nav.route.rddf import MILE_M
 from scenarios.course import Floats
 from scenarios.gc05_route.plan import Plan, Robotic, Stretch
 from scenarios.things import generator
 
-MILE_M = 1609.344
-"""International mile (exact, by definition)."""
 SPREAD = 0.45
 """Of the logarithm of the distance between waypoints (measured on GC04: up to 70 times; estimated:
 less, since a shorter segment is a turn's)."""

@@ -72,10 +72,6 @@ class Plan(msgspec.Struct, forbid_unknown_fields=True, frozen=True):
         """Of the whole route."""
         return sum(stretch.waypoints for stretch in self.stretches)
 
-    def kinds(self) -> list[str]:
-        """The kind of country at each waypoint."""
-        return [s.kind for s in self.stretches for _ in range(s.waypoints)]
-
 
 @cache
 def load_plan() -> Plan:

@@ -3,10 +3,10 @@
 from functools import cache
 
 from nav.route.geodesy import Frame
-from nav.route.rddf import parse
+from nav.route.rddf import MILE_M, parse
 from scenarios.course import Floats
 from scenarios.gc05_route.limits import half_widths_ft, speeds_mph
-from scenarios.gc05_route.line import MILE_M, positions_m
+from scenarios.gc05_route.line import positions_m
 from scenarios.gc05_route.plan import Plan, load_plan
 from scenarios.route.statistics import length_m
 

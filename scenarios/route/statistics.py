@@ -5,12 +5,10 @@ from typing import NamedTuple
 import numpy as np
 
 from nav.route.geodesy import ecef
-from nav.route.rddf import FOOT_M, MPH_MPS, Route
+from nav.route.rddf import FOOT_M, MILE_M, MPH_MPS, Route
 from nav.route.waypoints import route_frame, waypoints_of
 from scenarios.course import Floats
 
-MILE_M = 1609.344
-"""International mile (exact, by definition)."""
 SHARP_RAD = float(np.radians(30.0))
 SWITCHBACK_M = 40.0
 
@@ -69,7 +67,12 @@ def miles_at(route: Route) -> Floats:
 
 def turns_rad(route: Route) -> Floats:
     """Change of heading at each inner waypoint, shape (n - 2,), left positive, [rad]."""
-    step = np.diff(waypoints_of(route, route_frame(route)).position_m, axis=0)
+    return turns_of(waypoints_of(route, route_frame(route)).position_m)
+
+
+def turns_of(position_m: Floats) -> Floats:
+    """The same of points (n, 2)."""
+    step = np.diff(position_m, axis=0)
     heading = np.arctan2(step[:, 1], step[:, 0])
     return (np.diff(heading) + np.pi) % (2.0 * np.pi) - np.pi
 
