@@ -81,6 +81,7 @@ class Sensors:
         self.jump = np.zeros(2)
         self.quality, self.sd_m = GpsQuality.CONVERGED, 0.1
         self.delayed = []
+        self.ahead_mps2 = 0.0  # what the accelerometer feels along the vehicle
 
     def messages(self, truth, tick, gear=Gear.LOW):
         now = tick * TICK_NS
@@ -105,7 +106,7 @@ class Sensors:
         p, q, r = rates
         f = self.flip
         angular = np.array([f * p, q, f * r])
-        return ImuSample(now, angular, np.array([0, 0, 9.81]), f * truth.roll, truth.pitch)
+        return ImuSample(now, angular, np.array([self.ahead_mps2, 0, 9.81]), f * truth.roll, truth.pitch)
 
     def wheels(self, truth, now, gear):
         e, r, v = self.errors, truth.yaw_rate, truth.speed
@@ -293,6 +294,22 @@ def test_spinning_wheels_are_refused():
 
     log = run(Sensors(5), 30, script=script)
     assert np.abs(log.speed_mps[log.second > 10]).max() < 0.4
+
+
+def test_wheels_that_slide_under_full_brakes_do_not_let_the_estimate_run_on():
+    def plan(second):
+        return min(max(3.0 * (second - 3.0), 0.0), 10.0, max(10.0 - 5.5 * (second - 20.0), 2.0)), 0.0
+
+    def script(second, sensors, truth):
+        del truth
+        braking = 20.0 <= second < 21.4
+        sensors.ahead_mps2 = -5.5 if braking else 0.0
+        sensors.errors = replace(sensors.errors, wheel_scale=-0.06 if braking else 0.02)
+
+    log = run(Sensors(6), 30, plan, script=script)
+    late = log.second > 10
+    assert np.abs(log.speed_mps[late]).max() < 1.0
+    assert np.abs(log.ahead_m[late]).max() < 0.3
 
 
 def test_reverse_gear_is_driven_backwards():

@@ -54,6 +54,8 @@ class Drive(NamedTuple):
     """Speed times this is horizontal."""
     yaw_q: float = 0.0
     """Variance of the heading's growth, [rad^2/s]."""
+    brisk_mps2: float = 0.0
+    """How much harder the vehicle is accelerated than at other times, as the IMU feels it."""
 
 
 @dataclass
@@ -99,16 +101,18 @@ class Filter:
         F[GPS_X, GPS_X] = F[GPS_Y, GPS_Y] = fade = math.exp(-dt / self.parameters.gps.offset_s)
         self.state[GPS_X:] *= fade
         self.covariance = F.dot(self.covariance).dot(F.T)
-        self.covariance.ravel()[:: SIZE + 1] += self._noise(dt, abs(v), drive.yaw_q, fade)
+        self.covariance.ravel()[:: SIZE + 1] += self._noise(dt, abs(v), drive, fade)
         self._behind_s = self._east_s = self._north_s = 0.0
 
-    def _noise(self, dt_s: float, speed_mps: float, yaw_q: float, fade: float) -> Floats:
-        """The diagonal of Q."""
+    def _noise(self, dt_s: float, speed_mps: float, drive: Drive, fade: float) -> Floats:
+        """The diagonal of Q. Under full brakes the speed falls faster than otherwise, and sliding
+        wheels fall ahead of it: with the usual noise both wheels and GPS would be refused."""
         p = self.parameters
         slip = p.motion.slip_m**2 * (speed_mps + MIN_WAY_RATE_MPS) * dt_s
+        acceleration = p.motion.acceleration_mps2 + drive.brisk_mps2
         offset = 1.0 - fade * fade
         return np.array([
-            slip, slip, yaw_q * dt_s, p.motion.acceleration_mps2**2 * dt_s,
+            slip, slip, drive.yaw_q * dt_s, acceleration * acceleration * dt_s,
             p.motion.gyro_bias_radps**2 * dt_s, p.compass.bias_drift_rad**2 * dt_s,
             p.wheels.scale_drift**2 * dt_s, offset, offset,
         ])  # fmt: skip

@@ -222,8 +222,11 @@ class EgoState:
         attitude = self._upright(attitude_of(sample), sample.time_ns)
         self._last.attitude, self._last.imu_ns = attitude, sample.time_ns
         self._attitudes.add(sample.time_ns, attitude)
-        yaw_q = self.parameters.motion.gyro_radps**2
-        self._drive = Drive(heading_rate(attitude), True, math.cos(attitude.pitch_rad), yaw_q)
+        motion = self.parameters.motion
+        yaw_q, felt = motion.gyro_radps**2, abs(float(sample.acceleration_mps2[0]))
+        brisk = max(felt - motion.brisk_mps2, 0.0)
+        cos_pitch = math.cos(attitude.pitch_rad)
+        self._drive = Drive(heading_rate(attitude), True, cos_pitch, yaw_q, brisk)
 
     def _upright(self, measured: Attitude, time_ns: int) -> Attitude:
         """Without what the accelerations have done to the gyro's vertical."""

@@ -9,6 +9,8 @@ class Motion:
 
     acceleration_mps2: float
     """Unknown acceleration, [m/s^2 / sqrt(Hz)]."""
+    brisk_mps2: float
+    """As much is felt along the vehicle on slopes and bumps; what is more, adds to it."""
     slip_m: float
     """Position error by slip and ground, [m / sqrt(m)] of way."""
     gyro_radps: float
