@@ -1,6 +1,7 @@
 """Things of the ground itself: holes, and edges where it falls away."""
 
 from dataclasses import dataclass
+from math import cos, sin
 from typing import Protocol
 
 import numpy as np
@@ -49,3 +50,22 @@ class DropOff:
         right = (x - ax) * cy - (y - ay) * cx
         low = (along >= 0.0) & (along <= length) & (right >= 0.0) & (right <= self.reach_m)
         return np.where(low, -self.depth_m, 0.0)
+
+
+@dataclass(frozen=True)
+class Gully:
+    """A trench along a line, with sides a lattice cell wide."""
+
+    middle_m: tuple[float, float]
+    heading_rad: float
+    half_length_m: float
+    half_width_m: float
+    depth_m: float
+
+    def height(self, x: Floats, y: Floats) -> Floats:
+        """Minus the depth inside."""
+        c, s = cos(self.heading_rad), sin(self.heading_rad)
+        along = c * (x - self.middle_m[0]) + s * (y - self.middle_m[1])
+        left = c * (y - self.middle_m[1]) - s * (x - self.middle_m[0])
+        inside = (np.abs(along) <= self.half_length_m) & (np.abs(left) <= self.half_width_m)
+        return np.where(inside, -self.depth_m, 0.0)

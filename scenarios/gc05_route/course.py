@@ -8,13 +8,17 @@ from scenarios.course import Course, Patience, route_points_m
 from scenarios.failing import failing
 from scenarios.gc05_route import underpasses
 from scenarios.gc05_route.ground import ground
+from scenarios.gc05_route.plan import load_plan
 from scenarios.gc05_route.route import NAME, text
+from scenarios.gc05_route.shoulders import shoulders
+from scenarios.gc05_route.washouts import gullies
 from scenarios.gc05_route.wayside import UNDERPASS_HALF_LENGTH_M, Wayside
 from scenarios.route.corridor import CHUNK_M, Corridor
 from scenarios.route.course import FRICTION, SKY
 from scenarios.route.roadside import BESIDE_M
 from scenarios.scenario import load_scenario
 from scenarios.things import generator
+from twin.landforms import Landform
 from twin.world import SIGHT_M, World
 
 PATIENCE = Patience(300.0, 3.0, "terminated")
@@ -34,7 +38,7 @@ def build(seed: int, first: int | None = None, last: int | None = None) -> Cours
     waypoint_m = route_points_m(whole, anchor)
     corridor = Corridor.of(waypoint_m, whole.half_width_m)
     start_m = float(corridor.end_m[first - 2]) if first > 1 else 0.0
-    pose, terrain = corridor.pose(start_m + 1e-6), ground(seed)
+    pose, terrain = corridor.pose(start_m + 1e-6), ground(seed, _forms(seed, corridor))
     tunnels = [_middle_m(corridor, k) for k in underpasses.segments(waypoint_m)]
     wayside = Wayside(seed, terrain, corridor, tuple(tunnels), (pose.x, pose.y))
     end_m = float(corridor.end_m[last - 2])
@@ -61,6 +65,11 @@ def build(seed: int, first: int | None = None, last: int | None = None) -> Cours
         patience=PATIENCE,
     )
     return _from_there(failing(course, scenario.faults), start_m)
+
+
+def _forms(seed: int, corridor: Corridor) -> tuple[Landform, ...]:
+    plan = load_plan()
+    return (shoulders(plan, seed, corridor), *gullies(plan.washouts, corridor))
 
 
 def _chunks(wayside: Wayside, start_m: float, end_m: float) -> Chunks:

@@ -2,8 +2,11 @@
 
 from functools import cache
 from importlib.resources import files
+from typing import NamedTuple
 
 import msgspec
+
+Range = tuple[float, float]
 
 
 class Stretch(msgspec.Struct, forbid_unknown_fields=True, frozen=True):
@@ -52,6 +55,46 @@ class Robotic(msgspec.Struct, forbid_unknown_fields=True, frozen=True):
         return slice(first - 3, last + 1)
 
 
+class Beside(NamedTuple):
+    """Least and most that the ground rises, or falls, beside the track, [m]."""
+
+    left: Range
+    right: Range
+
+
+class Drop(msgspec.Struct, forbid_unknown_fields=True, frozen=True):
+    """Where the ground falls away on the right of the track."""
+
+    waypoints: tuple[int, int]
+    """First and last."""
+    depth_m: float
+
+
+class Washouts(msgspec.Struct, forbid_unknown_fields=True, frozen=True):
+    """Where the old road has been washed away, straight on behind the corner of a turn."""
+
+    waypoints: tuple[int, ...]
+    """Numbers of the corners."""
+    behind_m: float
+    """From the edge of the corridor to the edge of the gully."""
+    half_width_m: float
+    half_length_m: float
+    depth_m: float
+
+
+class BlindCorner(msgspec.Struct, forbid_unknown_fields=True, frozen=True):
+    """A tank trap behind a corner, and boulders on the inside of the turn that hide it."""
+
+    waypoint: int
+    """Number of the corner."""
+    beyond_m: float
+    cover_m: float
+    boulders_m: tuple[float, ...]
+    """From the corner, between the two legs."""
+    boulder_half_m: tuple[float, float]
+    boulder_top_m: float
+
+
 class Plan(msgspec.Struct, forbid_unknown_fields=True, frozen=True):
     """See `plan.toml`."""
 
@@ -63,6 +106,11 @@ class Plan(msgspec.Struct, forbid_unknown_fields=True, frozen=True):
     wander_rad: float
     sharp_deg: tuple[float, float]
     robotic: Robotic
+    washouts: Washouts
+    blind_corner: BlindCorner
+    beside: dict[str, Beside]
+    """By kind of stretch."""
+    drop: Drop
     stretches: list[Stretch]
     speeds: Speeds
     widths: Widths

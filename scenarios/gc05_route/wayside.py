@@ -1,10 +1,11 @@
 """What stands beside the track, on it, and over it, chunk by chunk."""
 
 from dataclasses import dataclass
-from math import radians
+from math import atan2, copysign, cos, pi, radians, sin
 
 import numpy as np
 
+from scenarios.gc05_route.plan import BlindCorner, load_plan
 from scenarios.geometry import Pose
 from scenarios.route.corridor import CHUNK_M, Corridor
 from scenarios.route.roadside import FREE_M, Roadside
@@ -60,7 +61,7 @@ class Wayside:
 
     def __call__(self, k: int) -> tuple[Obstacle, ...]:
         """All things of chunk k."""
-        special = self._underpass(k) or self._guard(k) or [
+        special = self._underpass(k) or self._blind_corner(k) or self._guard(k) or [
             part for slot in range(len(SLOTS_M)) for part in self._across(k, slot)
         ]  # fmt: skip
         roadside = Roadside(self.seed, self.terrain, self.corridor, reaches=not special)
@@ -79,6 +80,27 @@ class Wayside:
         middle = self.corridor.pose(here[0]).moved(0.0, float(rng.uniform(-MISS_M, MISS_M)))
         site = Site(f"underpass_{k:04d}", "tunnel", self.terrain, middle)
         return site.passage(middle, UNDERPASS_HALF_LENGTH_M, float(rng.uniform(*UNDERPASS_M)))
+
+    def _blind_corner(self, k: int) -> list[Obstacle]:
+        plan = load_plan().blind_corner
+        corner_m = float(self.corridor.end_m[plan.waypoint - 2])
+        station = corner_m + plan.beyond_m
+        if not k * CHUNK_M <= station < (k + 1) * CHUNK_M:
+            return []
+        come, go = self.corridor.pose(corner_m - 1e-6), self.corridor.pose(station)
+        outside = -copysign(1.0, sin(go.heading - come.heading))
+        left = outside * (extent_m(HALF_M["tank_trap"], 0.0) - plan.cover_m)
+        trap = Site("trap_across_576", "tank_trap", self.terrain, go.moved(0.0, left))
+        between = come._replace(heading=_between(come.heading + pi, go.heading))
+        return trap.tank_trap() + self._boulders(plan, between)
+
+    def _boulders(self, plan: BlindCorner, corner: Pose) -> list[Obstacle]:
+        """In a row along the heading."""
+        site = Site("boulder_576", "rock", self.terrain, corner)
+        return [
+            site.box(f"{i}", corner.moved(away, 0.0), plan.boulder_half_m, plan.boulder_top_m)
+            for i, away in enumerate(plan.boulders_m)
+        ]
 
     def _guard(self, k: int) -> list[Obstacle]:
         rng = generator(self.seed, f"guard {k}")
@@ -127,6 +149,11 @@ class Wayside:
             if min(along, rest) > CALM_M:
                 return station
         return None
+
+
+def _between(one_rad: float, other_rad: float) -> float:
+    """The direction in the middle between two."""
+    return atan2(sin(one_rad) + sin(other_rad), cos(one_rad) + cos(other_rad))
 
 
 def _rubble(site: Site, pose: Pose, half_m: float) -> list[Obstacle]:
