@@ -106,7 +106,8 @@ class Sensors:
         p, q, r = rates
         f = self.flip
         angular = np.array([f * p, q, f * r])
-        return ImuSample(now, angular, np.array([self.ahead_mps2, 0, 9.81]), f * truth.roll, truth.pitch)
+        force = np.array([self.ahead_mps2, 0, 9.81])
+        return ImuSample(now, angular, force, f * truth.roll, truth.pitch)
 
     def wheels(self, truth, now, gear):
         e, r, v = self.errors, truth.yaw_rate, truth.speed
@@ -298,7 +299,8 @@ def test_spinning_wheels_are_refused():
 
 def test_wheels_that_slide_under_full_brakes_do_not_let_the_estimate_run_on():
     def plan(second):
-        return min(max(3.0 * (second - 3.0), 0.0), 10.0, max(10.0 - 5.5 * (second - 20.0), 2.0)), 0.0
+        braked = max(10.0 - 5.5 * (second - 20.0), 2.0)
+        return min(max(3.0 * (second - 3.0), 0.0), 10.0, braked), 0.0
 
     def script(second, sensors, truth):
         del truth

@@ -87,6 +87,8 @@ class SpeedProfileParameters:
     """... this, and its corridor ..."""
     open_half_width_m: float
     """... narrower than this: nothing can stand in it, since one could not pass."""
+    wide_mps: float
+    """Where the limit is as high, and the corridor wider."""
     limit_factor: float
     """Share of the speed limit that is aimed at, so that control errors stay below it."""
     avoid_mps: float
