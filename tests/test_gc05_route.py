@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from free_passage import corners_m, free_width_m, lateral_m
 
-from nav.route.rddf import RouteError, parse
+from nav.route.rddf import FOOT_M, RouteError, parse
 from scenarios.gc05_route import underpasses
 from scenarios.gc05_route.course import build
 from scenarios.gc05_route.plan import load_plan
@@ -102,3 +102,9 @@ def test_faults_are_where_they_are_on_the_whole():
 def test_a_stretch_that_is_not_there_is_refused():
     with pytest.raises(RouteError, match="no stretch from 30 to 20"):
         build(0, 30, 20)
+
+
+def test_sharp_turns_are_wider_than_the_rest_as_on_gc04():
+    width = np.minimum(ROUTE.half_width_m[:-2], ROUTE.half_width_m[1:-1]) / FOOT_M
+    sharp = np.degrees(np.abs(turns_rad(ROUTE))) > 30.0
+    assert 10.0 <= np.median(width[sharp]) <= 13.0

@@ -1,6 +1,7 @@
 """Speed limits and half-widths, distributed as in the real file of GC04."""
 
 from collections.abc import Sequence
+from math import radians
 
 import numpy as np
 from numpy.typing import NDArray
@@ -15,6 +16,8 @@ Ints = NDArray[np.int64]
 
 BLOCK = 8
 """Waypoints with limits of their own: real limits change every few hundred metres."""
+SHARP_RAD, SHARP_FT = radians(30.0), 12.0
+"""Measured on GC04: the median half-width beside turns above 30 degrees; of all it is 8 ft."""
 UNDERPASS_MPH, UNDERPASS_FT = 5.0, 7.0
 """Estimated: as in the tunnel of the NQE; walls stand just inside the corridor."""
 CHANCE = 0.35
@@ -25,8 +28,8 @@ def speeds_mph(plan: Plan, position_m: Floats) -> Floats:
     """Speed limit from each waypoint to the next, shape (n,); 0 at the finish."""
     length = np.append(np.hypot(*np.diff(position_m, axis=0).T), 0.0)
     order = _order(plan, position_m, "speed")
-    share = np.cumsum(length[order]) / length.sum()
-    mph = _dealt(order, share, plan.speeds.mph, plan.speeds.share)
+    mph = np.empty(plan.waypoints)
+    mph[order] = _dealt(np.cumsum(length[order]) / length.sum(), plan.speeds.mph, plan.speeds.share)
     mph[underpasses.segments(position_m)] = UNDERPASS_MPH
     mph[plan.robotic.segments] = plan.robotic.mph
     mph[-1] = 0.0
@@ -36,22 +39,26 @@ def speeds_mph(plan: Plan, position_m: Floats) -> Floats:
 def half_widths_ft(plan: Plan, position_m: Floats) -> Floats:
     """Half-width of the corridor from each waypoint to the next, shape (n,)."""
     order = _order(plan, position_m, "width")
-    share = (np.arange(plan.waypoints) + 0.5) / plan.waypoints
-    feet = _dealt(order, share, plan.widths.ft, plan.widths.share)
+    order = order[~np.isin(order, _beside_sharp_turns(position_m))]
+    feet = np.full(plan.waypoints, SHARP_FT)
+    share = (np.arange(len(order)) + 0.5) / len(order)
+    feet[order] = _dealt(share, plan.widths.ft, plan.widths.share)
     feet[underpasses.segments(position_m)] = UNDERPASS_FT
     feet[plan.robotic.segments] = plan.robotic.half_width_ft
     return feet
 
 
-def _dealt(
-    order: Ints, share: Floats, values: Sequence[float], shares: Sequence[float]
-) -> Floats:
-    """Values by waypoint: dealt out in an `order`, the first of them up to the first of `shares`,
-    where each waypoint ends a `share` (n,) of the whole."""
+def _beside_sharp_turns(position_m: Floats) -> Ints:
+    """The segments that lead to sharp turns and away from them."""
+    corner = np.flatnonzero(np.abs(turns_of(position_m)) > SHARP_RAD)
+    return np.union1d(corner, corner + 1)
+
+
+def _dealt(share: Floats, values: Sequence[float], shares: Sequence[float]) -> Floats:
+    """Values dealt out in order (k,), the first of them up to the first of `shares`, where each
+    place ends a `share` (k,) of the whole."""
     at = np.searchsorted(np.cumsum(shares), share).clip(max=len(values) - 1)
-    dealt = np.empty(len(order))
-    dealt[order] = np.array(values)[at]
-    return dealt
+    return np.array(values)[at]
 
 
 def _order(plan: Plan, position_m: Floats, name: str) -> Ints:
