@@ -12,7 +12,7 @@ import numpy as np
 from numba import njit
 from numpy.typing import NDArray
 
-from twin.raycast.geometry import BOX, GROUND, NO_HIT, Floats, Geometry, Ground
+from twin.raycast.geometry import BOX, GROUND, NO_HIT, Floats, Geometry, Ground, Records
 
 Vector = tuple[float, float, float]
 
@@ -35,13 +35,48 @@ def cast_all(
         start = (origins[k, 0], origins[k, 1], origins[k, 2])
         r = rotations[k]
         for i in range(directions.shape[0]):
-            x, y, z = directions[i, 0], directions[i, 1], directions[i, 2]
-            direction = (
-                r[0, 0] * x + r[0, 1] * y + r[0, 2] * z,
-                r[1, 0] * x + r[1, 1] * y + r[1, 2] * z,
-                r[2, 0] * x + r[2, 1] * y + r[2, 2] * z,
-            )
+            direction = _turned(r, directions[i, 0], directions[i, 1], directions[i, 2])
             range_m[k, i], what[k, i] = _cast(geometry, start, direction, max_range)
+
+
+@_compiled
+def hide_all(
+    geometry: Geometry, origins: Floats, rotations: Floats, directions: Floats, max_range: float,
+    opacity: Floats, drawn: Floats, range_m: Floats,
+) -> None:  # fmt: skip
+    """Shorten range_m (m, n) of the rays of `cast_all` that a solid of this geometry holds back:
+    where drawn (m, n) is less than its opacity, one of (solids,).
+
+    Few rays come near any solid, so the others are not walked; there are only a few solids.
+    """
+    for k in range(origins.shape[0]):
+        start = (origins[k, 0], origins[k, 1], origins[k, 2])
+        r = rotations[k]
+        for i in range(directions.shape[0]):
+            direction = _turned(r, directions[i, 0], directions[i, 1], directions[i, 2])
+            if _nearest(geometry.solids, start, direction) < range_m[k, i]:
+                veiled, what = _cast(geometry, start, direction, max_range)
+                if what >= 0 and veiled < range_m[k, i] and drawn[k, i] < opacity[what]:
+                    range_m[k, i] = veiled
+
+
+@_compiled
+def _turned(r: Floats, x: float, y: float, z: float) -> Vector:
+    """The vector x, y, z turned by a rotation (3, 3)."""
+    return (
+        r[0, 0] * x + r[0, 1] * y + r[0, 2] * z,
+        r[1, 0] * x + r[1, 1] * y + r[1, 2] * z,
+        r[2, 0] * x + r[2, 1] * y + r[2, 2] * z,
+    )
+
+
+@_compiled
+def _nearest(solids: Records, origin: Vector, direction: Vector) -> float:
+    """Range [m] at which a ray first meets any of the solids, were there no ground; else FAR."""
+    range_m = FAR
+    for k in range(solids.size):
+        range_m = min(range_m, _meet(solids[k], origin, direction))
+    return range_m
 
 
 @_compiled

@@ -7,7 +7,7 @@ from numpy.typing import NDArray
 
 from twin.raycast.blocks import put_lids, sort_into_blocks
 from twin.raycast.geometry import BLOCK, BOX, CYLINDER, SOLID, Floats, Geometry, Ground, Records
-from twin.raycast.rays import cast_all
+from twin.raycast.rays import cast_all, hide_all
 from twin.world import Obstacle
 
 BLOCK_CELLS = 20
@@ -84,13 +84,32 @@ def cast_hits(
 ) -> tuple[Floats, NDArray[np.int32]]:
     """As `cast`, from many origins (m, 3), each with its rotation (m, 3, 3): ranges (m, n), and
     what was hit (m, n): index of the obstacle, GROUND or NO_HIT."""
-    origins, rotations, directions = (
-        np.ascontiguousarray(a, dtype=np.float64) for a in (origins, rotations, directions)
-    )
     shape = len(origins), len(directions)
     range_m, what = np.empty(shape), np.empty(shape, np.int32)
-    cast_all(scene.geometry, origins, rotations, directions, float(max_range), range_m, what)
+    rays = _plain(origins), _plain(rotations), _plain(directions)
+    cast_all(scene.geometry, *rays, float(max_range), range_m, what)
     return range_m, what
+
+
+def hide(
+    scene: Scene,
+    origins: Floats,
+    directions: Floats,
+    max_range: float,
+    rotations: Floats,
+    opacity: Floats,
+    drawn: Floats,
+    range_m: Floats,
+) -> None:
+    """Shorten ranges (m, n) [m] of the rays of `cast_hits` that the solids of a scene hold back:
+    where `drawn` (m, n) is less than the solid's `opacity`, one of (solids,)."""
+    rays = _plain(origins), _plain(rotations), _plain(directions)
+    hide_all(scene.geometry, *rays, float(max_range), opacity, drawn, range_m)
+
+
+def _plain(array: Floats) -> Floats:
+    """In the one layout that the rays are compiled for."""
+    return np.ascontiguousarray(array, np.float64)
 
 
 def _solids(obstacles: Sequence[Obstacle]) -> Records:

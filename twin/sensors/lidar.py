@@ -49,8 +49,7 @@ class Lidar:
         seen_m = _mixed(true_m[:, 0], edge, p.beam_rad / _step_rad(p), p.edge_m, p.pulse_m, p.share)
         if self._sight.veil:  # what leaves hold back is told of whole beams, however wide
             drawn = self._rng.random((p.beams, 1))
-            veil = self._sight.veil
-            seen_m = veil.hide(seen_m[:, None], rays, p.max_range_m, self.name, drawn)[:, 0]
+            self._sight.veil.hide(seen_m[:, None], rays, p.max_range_m, self.name, drawn)
         noise = self._rng.standard_normal(p.beams)
         counts = _counts(seen_m, noise, self._bias_m, p.noise_sd_m, p.max_range_m)
         return LidarScan(time_ns, self.name, lidar_range_m(counts))
@@ -80,12 +79,14 @@ def _swept(
     """
     origins, frames = np.empty((age_s.size, 3)), np.zeros((age_s.size, 3, 3))
     for i in range(age_s.size):
-        x, y, z = looks[i]
-        a, b, c = -age_s[i] * turn  # a turn of some hundredths, so the first order will do
+        x, y, z = looks[i, 0], looks[i, 1], looks[i, 2]
+        past = -age_s[i]  # a turn of some hundredths, so the first order will do
+        a, b, c = past * turn[0], past * turn[1], past * turn[2]
         dx, dy, dz = x + b * z - c * y, y + c * x - a * z, z + a * y - b * x
         scale = 1.0 / np.sqrt(dx * dx + dy * dy + dz * dz)
         frames[i, 0, 0], frames[i, 1, 0], frames[i, 2, 0] = scale * dx, scale * dy, scale * dz
-        origins[i] = position - age_s[i] * velocity
+        for j in range(3):  # by elements: whole rows would be allocated
+            origins[i, j] = position[j] - age_s[i] * velocity[j]
     return origins, frames
 
 

@@ -7,7 +7,7 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from twin.raycast import Scene, cast_hits
+from twin.raycast import Scene, hide
 from twin.sensors.sensor import Floats, Ints
 from twin.world import OPACITY, SILENT, Obstacle, World
 
@@ -32,25 +32,22 @@ class Veil:
         self._opacities: dict[str, Floats] = {}
 
     def hide(
-        self, range_m: Floats, rays: Rays, max_range_m: float, sensor: str, drawn: Floats | float
-    ) -> Floats:
-        """Ranges as `cast_hits` gave them, shorter where a beam is held back.
+        self, range_m: Floats, rays: Rays, max_range_m: float, sensor: str, drawn: Floats
+    ) -> None:
+        """Shorten ranges as `cast_hits` gave them where a beam is held back.
 
         Args:
-            range_m: shape (m, n), [m].
+            range_m: shape (m, n), [m]; written into.
             rays: from where, and where to.
             max_range_m: farther away nothing is met.
             sensor: whose beams they are.
-            drawn: shape (m, n) or one number, within [0, 1): a beam is held where it is less than
-                the thing's opacity.
+            drawn: shape (m, n), within [0, 1): a beam is held where it is less than the thing's
+                opacity.
         """
-        veiled_m, what = cast_hits(self.scene, *rays[:2], max_range_m, rays.rotations)
         opacity = self._opacities.get(sensor)
         if opacity is None:
             opacity = self._opacities[sensor] = self._opacity(sensor)
-        opacity = opacity[np.maximum(what, 0)]
-        held = (what >= 0) & (veiled_m < range_m) & (drawn < opacity)
-        return np.where(held, veiled_m, range_m)
+        hide(self.scene, *rays[:2], max_range_m, rays.rotations, opacity, drawn, range_m)
 
     def _opacity(self, sensor: str) -> Floats:
         """The share of a sensor's beams that each thing holds back, shape (n,)."""

@@ -66,7 +66,7 @@ class Sonar:
         self._mirror(range_m, what)
         if veil := self._sight.veil:
             rays = Rays(origins, self._cone, rotations)
-            range_m = veil.hide(range_m, rays, limit, self.name, 0.0)
+            veil.hide(range_m, rays, limit, self.name, np.zeros(range_m.shape))
         return range_m.min(axis=1)
 
     def _mirror(self, range_m: Floats, what: Ints) -> None:
