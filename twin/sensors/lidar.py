@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 from nav.messages import LIDAR_COUNT_M, LIDAR_NO_RETURN_COUNT, LidarScan, lidar_range_m
 from twin.raycast import cast_hits
 from twin.sensors.parameters import LidarParameters, MountingParameters
-from twin.sensors.sensor import Floats, View, draw_mounting, generator, schedule
+from twin.sensors.sensor import Floats, Ints, View, draw_mounting, generator, schedule
 from twin.sensors.sight import ByKind, Rays, Sight
 
 _ALONG_X = np.array([[1.0, 0.0, 0.0]])
@@ -37,16 +37,16 @@ class Lidar:
         self._rng, self._edges = generator(seed, unit), generator(seed, f"{unit} edges")
         self._mounting = draw_mounting(self._rng, mounting)
         self._bias_m = p.bias_sd_m * self._rng.standard_normal()
-        self._fan, self._age_s = _fan(p), _age_s(p)
+        self._fan, self._age_s, self._width = _fan(p), _age_s(p), p.beam_rad / _step_rad(p)
         self._reach_m = _reach_m(p, sight)
 
     def measure(self, view: View, time_ns: int) -> LidarScan:
         """The scan whose last beam is of this instant."""
         p, rays = self._p, self.rays(view)
         true_m, what = cast_hits(self._sight.solid, *rays[:2], p.max_range_m, rays.rotations)
-        true_m[true_m > self._reach_m.of(what)] = p.max_range_m
+        _dim(true_m[:, 0], what[:, 0], self._reach_m.values_by_number(), p.max_range_m)
         edge = self._edges.random(p.beams)
-        seen_m = _mixed(true_m[:, 0], edge, p.beam_rad / _step_rad(p), p.edge_m, p.pulse_m, p.share)
+        seen_m = _mixed(true_m[:, 0], edge, self._width, p.edge_m, p.pulse_m, p.share)
         if self._sight.veil:  # what leaves hold back is told of whole beams, however wide
             drawn = self._rng.random((p.beams, 1))
             self._sight.veil.hide(seen_m[:, None], rays, p.max_range_m, self.name, drawn)
@@ -88,6 +88,14 @@ def _swept(
         for j in range(3):  # by elements: whole rows would be allocated
             origins[i, j] = position[j] - age_s[i] * velocity[j]
     return origins, frames
+
+
+@njit(cache=True)
+def _dim(true_m: Floats, what: Ints, reach_m: Floats, max_range_m: float) -> None:
+    """Let nothing be seen, of ranges (n,), that is beyond the reach of what each beam met."""
+    for i in range(true_m.size):
+        if true_m[i] > reach_m[what[i]]:
+            true_m[i] = max_range_m
 
 
 @njit(cache=True)

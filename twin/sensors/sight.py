@@ -100,8 +100,12 @@ class ByKind:
 
     def of(self, what: Ints) -> NDArray[Any]:
         """The values of what `cast_hits` says was hit, any shape."""
+        return self.values_by_number()[what]
+
+    def values_by_number(self) -> NDArray[Any]:
+        """To be indexed by what `cast_hits` says was hit."""
         if self._things is not self.sight.things:
             self._things = self.sight.things
             known = [self.values.get(thing.kind, self.other) for thing in self._things]
             self._value = np.array([*known, self.nothing, self.ground])  # NO_HIT and GROUND are
-        return self._value[what]  # negative
+        return self._value  # negative
