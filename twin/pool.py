@@ -77,6 +77,8 @@ def _put(
 ) -> None:
     """One geom: where it is, and how large, for the narrow phase as well as for the broad one."""
     mocap = model.body_mocapid[body]
+    # What is parked is left out of the broad phase, which would compare each of them with each.
+    model.body_contype[body] = model.body_conaffinity[body] = int(thing is not None)
     if thing is None:
         data.mocap_pos[mocap] = 0.0, 0.0, PARKED_M
         return

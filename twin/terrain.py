@@ -170,9 +170,14 @@ class TerrainWindow:
     @property
     def contact_origin_m(self) -> tuple[float, float, float]:
         """Where the height field `terrain` stands: its middle, and the height that is its zero."""
+        return *self._middle_m, float(floor(self._contact_z.min()))
+
+    @property
+    def _middle_m(self) -> tuple[float, float]:
+        """World x and y of the middle."""
         x = self.x0 + self._middle * self.spacing
         y = self.y0 + self._middle * self.spacing
-        return x, y, float(floor(self._contact_z.min()))
+        return x, y
 
     def recenter(self, x: float, y: float) -> bool:
         """Scroll so that (x, y) [m] is at the centre, if it is farther than the slack from it.
@@ -180,7 +185,7 @@ class TerrainWindow:
         Returns:
             True when the window has moved; then `write_hfield` is due.
         """
-        middle_x, middle_y, _ = self.contact_origin_m
+        middle_x, middle_y = self._middle_m
         if max(abs(x - middle_x), abs(y - middle_y)) <= self.slack_m:
             return False
         column, row = self._corner(x, y)

@@ -49,10 +49,15 @@ def hide_all(
 
     Few rays come near any solid, so the others are not walked; there are only a few solids.
     """
+    densest = 0.0
+    for solid in range(opacity.size):
+        densest = max(densest, opacity[solid])
     for k in range(origins.shape[0]):
         start = (origins[k, 0], origins[k, 1], origins[k, 2])
         r = rotations[k]
         for i in range(directions.shape[0]):
+            if drawn[k, i] >= densest:
+                continue
             direction = _turned(r, directions[i, 0], directions[i, 1], directions[i, 2])
             if _nearest(geometry.solids, start, direction) < range_m[k, i]:
                 veiled, what = _cast(geometry, start, direction, max_range)

@@ -63,7 +63,7 @@ class Lidar:
         """From where and whereto each beam looked, at its own time."""
         velocity, turn = view.site_velocity(self.name)
         position, rotation = self._mounting.pose(view, self.name)
-        looks = self._fan @ rotation.T
+        looks = self._fan.dot(rotation.T)
         origins, frames = _swept(looks, self._age_s, position, velocity, turn)
         return Rays(origins, _ALONG_X, frames)
 

@@ -97,7 +97,8 @@ class Mounting(NamedTuple):
     def pose(self, view: View, site: str) -> tuple[Floats, Floats]:
         """Position (3,) and rotation (3, 3) of the device in the world."""
         position, rotation = view.site_pose(site)
-        return position + rotation @ self.offset_m, rotation @ self.rotation
+        # The bits of `@`, at half its cost: eleven devices ask for hundreds of poses a second.
+        return position + rotation.dot(self.offset_m), rotation.dot(self.rotation)
 
 
 def draw_mounting(rng: np.random.Generator, parameters: MountingParameters) -> Mounting:
