@@ -175,4 +175,10 @@ def test_a_far_slope_that_a_level_scanner_grazes_does_not_jump():
     slope = np.linspace(37.0, 46.0, 361)
     tilted = Moved(0.23, 0.0073 * 0.0267)
     assert jump_m(slope, slope + 0.49, tilted, P.scan) == 0.0
-    assert jump_m(slope, slope + 0.49, Moved(0.23, 0.0), P.scan) == pytest.approx(0.49)
+    assert jump_m(slope, slope + 0.49, Moved(0.0, 0.0), P.scan) == pytest.approx(0.49)
+
+
+def test_a_far_slope_over_which_the_vehicle_rises_does_not_jump():
+    slope = np.linspace(35.0, 46.0, 361)  # seen in the race: 0.61 m at 7 m/s, without any tilt
+    assert jump_m(slope, slope + 0.61, Moved(0.19, 0.0), P.scan) == 0.0
+    assert jump_m(slope / 4.0, slope / 4.0 + 0.61, Moved(0.19, 0.0), P.scan) != 0.0

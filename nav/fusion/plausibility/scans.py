@@ -13,6 +13,8 @@ NO_RETURN_M = 81.92
 STANDS_MPS = 0.05
 LOW_M = 0.5
 """No scanner sits lower above the ground."""
+ROUGH = 0.06
+"""So much the vehicle rises or falls, a metre of way (estimated: slopes of courses, and bumps)."""
 EVERY = 4
 """So many beams are enough to see that all have jumped."""
 
@@ -86,18 +88,20 @@ def jump_m(before_m: Floats, range_m: Floats, moved: Moved, p: ScanParameters) -
     """By how much all ranges have changed alike, [m]; 0 where they have not.
 
     The world does not do that: what the vehicle nears on its way comes nearer by the cosine of its
-    bearing, and as it pitches, ground moves by the square of its range over the scanner's height.
+    bearing; as it rises, ground moves by its range over the scanner's height, and as it pitches, by
+    the square of that range: slopes that are grazed in 40 m move by more than half a metre.
     """
     change = range_m - before_m
-    far = np.abs(change) > p.jump_m
-    if EVERY * np.count_nonzero(far) < p.jump_least:  # as nearly always: no need to look closer
+    jumped = np.abs(change) > p.jump_m
+    if EVERY * np.count_nonzero(jumped) < p.jump_least:  # as nearly always: no need to look closer
         return 0.0
     both = np.flatnonzero((before_m < NO_RETURN_M) & (range_m < NO_RETURN_M))
     if EVERY * both.size < p.jump_least or EVERY * (both[-1] - both[0]) < p.span:
         return 0.0
     change = change[both]
     middle = _median(change)
-    ground_m = _median(before_m[both]) ** 2 * moved.tilt_rad / LOW_M
+    far_m = _median(before_m[both])
+    ground_m = far_m * (far_m * moved.tilt_rad + ROUGH * moved.way_m) / LOW_M
     if abs(middle) < p.jump_m + moved.way_m + ground_m:
         return 0.0
     alike = np.count_nonzero(np.abs(change - middle) < p.alike_m)
