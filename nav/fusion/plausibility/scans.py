@@ -101,7 +101,8 @@ def jump_m(before_m: Floats, range_m: Floats, moved: Moved, p: ScanParameters) -
     change = change[both]
     middle = _median(change)
     far_m = _median(before_m[both])
-    ground_m = far_m * (far_m * moved.tilt_rad + ROUGH * moved.way_m) / LOW_M
+    rise_m = ROUGH * moved.way_m if far_m > p.near_m else 0.0  # nearer, things are met, not ground
+    ground_m = far_m * (far_m * moved.tilt_rad + rise_m) / LOW_M
     if abs(middle) < p.jump_m + moved.way_m + ground_m:
         return 0.0
     alike = np.count_nonzero(np.abs(change - middle) < p.alike_m)
