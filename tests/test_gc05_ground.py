@@ -45,7 +45,7 @@ def test_the_corridor_is_as_it_was(left: bool):
 def test_the_pass_has_a_wall_and_a_drop_at_its_end():
     assert np.median(beside(5.0, stations_of("pass"), left=True)) > 1.0
     first, last = load_plan().drop.waypoints
-    at_the_drop = np.arange(CORRIDOR.end_m[first - 1], CORRIDOR.end_m[last - 3], 3.0)
+    at_the_drop = np.arange(CORRIDOR.waypoint(first + 1), CORRIDOR.waypoint(last - 1), 3.0)
     assert np.median(beside(6.0, at_the_drop, left=False)) < -1.5
 
 
@@ -75,7 +75,7 @@ def test_the_old_road_ends_in_a_gully_outside_the_corridor():
 
 def test_boulders_hide_the_trap_from_who_comes_to_the_corner():
     plan = load_plan().blind_corner
-    corner_m = float(CORRIDOR.end_m[plan.waypoint - 2])
+    corner_m = CORRIDOR.waypoint(plan.waypoint)
     parts = COURSE.world.around(*CORRIDOR.pose(corner_m).at(0.0, 0.0))
     trap = next(o for o in parts if o.owner == "trap_across_576")
     boulders = np.array([o.center_m[:2] for o in parts if o.owner == "boulder_576"])

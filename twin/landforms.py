@@ -17,6 +17,13 @@ class Landform(Protocol):
         ...
 
 
+def ridge(out_m: Floats, height_m: Floats | float, slope: Floats | float, crest_m: float) -> Floats:
+    """Heights of a ridge `out_m` behind its foot: up by `slope`, flat for `crest_m`, and down; none
+    in front of it and behind it, [m]."""
+    back_m = 2.0 * height_m / slope + crest_m - out_m
+    return np.clip(np.minimum(out_m, back_m) * slope, 0.0, height_m)
+
+
 @dataclass(frozen=True)
 class Pit:
     """A round hole with a flat bottom and a wall a lattice cell wide."""

@@ -8,7 +8,7 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from twin.landforms import Landform
+from twin.landforms import Landform, ridge
 from twin.world import Floats, Terrain
 
 Points = tuple[tuple[float, float], ...]
@@ -81,10 +81,8 @@ class Banks:
     def _profile(self, station: Floats, offset: Floats, length: float) -> Floats:
         slope = np.where(offset >= 0.0, self.slope[0], self.slope[1])
         out = np.abs(offset) - self.inner_m
-        back = 2.0 * self.height_m / slope - out
-        ridge = np.clip(np.minimum(out, back) * slope, 0.0, self.height_m)
         taper = np.clip(np.minimum(station, length - station) / self.taper_m, 0.0, 1.0)
-        return ridge * taper
+        return ridge(out, self.height_m, slope, 0.0) * taper
 
 
 @dataclass(frozen=True)

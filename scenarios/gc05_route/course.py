@@ -37,11 +37,10 @@ def build(seed: int, first: int | None = None, last: int | None = None) -> Cours
     anchor = float(whole.latitude_deg[0]), float(whole.longitude_deg[0])
     waypoint_m = route_points_m(whole, anchor)
     corridor = Corridor.of(waypoint_m, whole.half_width_m)
-    start_m = float(corridor.end_m[first - 2]) if first > 1 else 0.0
+    start_m, end_m = corridor.waypoint(first), corridor.waypoint(last)
     pose, terrain = corridor.pose(start_m + 1e-6), ground(seed, _forms(seed, corridor))
     tunnels = [_middle_m(corridor, k) for k in underpasses.segments(waypoint_m)]
     wayside = Wayside(seed, terrain, corridor, tuple(tunnels), (pose.x, pose.y))
-    end_m = float(corridor.end_m[last - 2])
     world = World(
         terrain=terrain,
         obstacles=(),

@@ -1,7 +1,6 @@
 """Speed limits and half-widths, distributed as in the real file of GC04."""
 
 from collections.abc import Sequence
-from math import radians
 
 import numpy as np
 from numpy.typing import NDArray
@@ -9,15 +8,15 @@ from numpy.typing import NDArray
 from scenarios.course import Floats
 from scenarios.gc05_route import underpasses
 from scenarios.gc05_route.plan import Plan
-from scenarios.route.statistics import turns_of
+from scenarios.route.statistics import SHARP_RAD, turns_of
 from scenarios.things import generator
 
 Ints = NDArray[np.int64]
 
 BLOCK = 8
 """Waypoints with limits of their own: real limits change every few hundred metres."""
-SHARP_RAD, SHARP_FT = radians(30.0), 12.0
-"""Measured on GC04: the median half-width beside turns above 30 degrees; of all it is 8 ft."""
+SHARP_FT = 12.0
+"""Measured on GC04: the median half-width beside sharp turns; of all it is 8 ft."""
 UNDERPASS_MPH, UNDERPASS_FT = 5.0, 7.0
 """Estimated: as in the tunnel of the NQE; walls stand just inside the corridor."""
 CHANCE = 0.35

@@ -12,6 +12,7 @@ from scenarios.course import Floats
 from scenarios.gc05_route.plan import Plan, Range
 from scenarios.route.corridor import Corridor
 from scenarios.things import generator
+from twin.landforms import ridge
 
 Indices = NDArray[np.int64]
 
@@ -90,9 +91,7 @@ class Shoulders:
         side = np.where(left >= 0.0, 0, 1)
         before, after = self.height_m[k, side], self.height_m[k + 1, side]
         height = before + share * (after - before)
-        top, out = np.abs(height), distance - foot
-        back = 2.0 * top / SLOPE + CREST_M - out
-        return np.copysign(np.clip(SLOPE * np.minimum(out, back), 0.0, top), height)
+        return np.copysign(ridge(distance - foot, np.abs(height), SLOPE, CREST_M), height)
 
 
 def shoulders(plan: Plan, seed: int, corridor: Corridor) -> Shoulders:

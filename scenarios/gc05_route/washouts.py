@@ -13,9 +13,9 @@ def gullies(plan: Washouts, corridor: Corridor) -> list[Gully]:
 
 
 def _gully(plan: Washouts, corridor: Corridor, number: int) -> Gully:
-    segment = number - 2  # the one that leads to the corner
-    corner = corridor.pose(float(corridor.end_m[segment]) - 1e-6)
-    ahead = float(corridor.half_width_m[segment]) + plan.behind_m + plan.half_width_m
-    middle = corner.moved(ahead, 0.0, pi / 2.0)
+    station = corridor.waypoint(number) - 1e-6  # still on the segment that leads to the corner
+    corner = corridor.pose(station)
+    edge_m = float(corridor.half_width_m[corridor.place(station)[0]])
+    middle = corner.moved(edge_m + plan.behind_m + plan.half_width_m, 0.0, pi / 2.0)
     size = plan.half_length_m, plan.half_width_m, plan.depth_m
     return Gully((middle.x, middle.y), middle.heading, *size)

@@ -83,20 +83,20 @@ class Wayside:
 
     def _blind_corner(self, k: int) -> list[Obstacle]:
         plan = load_plan().blind_corner
-        corner_m = float(self.corridor.end_m[plan.waypoint - 2])
+        corner_m = self.corridor.waypoint(plan.waypoint)
         station = corner_m + plan.beyond_m
         if not k * CHUNK_M <= station < (k + 1) * CHUNK_M:
             return []
         come, go = self.corridor.pose(corner_m - 1e-6), self.corridor.pose(station)
         outside = -copysign(1.0, sin(go.heading - come.heading))
-        left = outside * (extent_m(HALF_M["tank_trap"], 0.0) - plan.cover_m)
-        trap = Site("trap_across_576", "tank_trap", self.terrain, go.moved(0.0, left))
+        left = outside * (TRAP_M - plan.cover_m)
+        trap = Site(f"trap_across_{plan.waypoint}", "tank_trap", self.terrain, go.moved(0.0, left))
         between = come._replace(heading=_between(come.heading + pi, go.heading))
         return trap.tank_trap() + self._boulders(plan, between)
 
     def _boulders(self, plan: BlindCorner, corner: Pose) -> list[Obstacle]:
         """In a row along the heading."""
-        site = Site("boulder_576", "rock", self.terrain, corner)
+        site = Site(f"boulder_{plan.waypoint}", "rock", self.terrain, corner)
         return [
             site.box(f"{i}", corner.moved(away, 0.0), plan.boulder_half_m, plan.boulder_top_m)
             for i, away in enumerate(plan.boulders_m)

@@ -42,6 +42,10 @@ class Corridor(NamedTuple):
         """On which segment stations lie, shape (k,)."""
         return np.minimum(np.searchsorted(self.end_m, station_m), len(self.end_m) - 1)
 
+    def waypoint(self, number: int) -> float:
+        """Station of the waypoint of a number, the first being 1."""
+        return float(self.end_m[number - 2]) if number > 1 else 0.0
+
     def place(self, station_m: float) -> tuple[int, float]:
         """The segment of one station, and how far along that is, [m]."""
         k = min(int(np.searchsorted(self.end_m, station_m)), len(self.end_m) - 1)

@@ -10,6 +10,7 @@ from nav.route.waypoints import route_frame, waypoints_of
 from scenarios.course import Floats
 
 SHARP_RAD = float(np.radians(30.0))
+"""Turns above it are called sharp."""
 SWITCHBACK_M = 40.0
 
 

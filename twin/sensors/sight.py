@@ -107,5 +107,6 @@ class ByKind:
         if self._things is not self.sight.things:
             self._things = self.sight.things
             known = [self.values.get(thing.kind, self.other) for thing in self._things]
-            self._value = np.array([*known, self.nothing, self.ground])  # NO_HIT and GROUND are
-        return self._value  # negative
+            # NO_HIT and GROUND are negative: they count from the end
+            self._value = np.array([*known, self.nothing, self.ground])
+        return self._value

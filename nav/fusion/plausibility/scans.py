@@ -100,13 +100,17 @@ def jump_m(before_m: Floats, range_m: Floats, moved: Moved, p: ScanParameters) -
         return 0.0
     change = change[both]
     middle = _median(change)
-    far_m = _median(before_m[both])
-    rise_m = ROUGH * moved.way_m if far_m > p.near_m else 0.0  # nearer, things are met, not ground
-    ground_m = far_m * (far_m * moved.tilt_rad + rise_m) / LOW_M
-    if abs(middle) < p.jump_m + moved.way_m + ground_m:
+    if abs(middle) < p.jump_m + moved.way_m + _ground_m(_median(before_m[both]), moved, p):
         return 0.0
     alike = np.count_nonzero(np.abs(change - middle) < p.alike_m)
     return middle if alike > p.alike_share * change.size else 0.0
+
+
+def _ground_m(range_m: float, moved: Moved, p: ScanParameters) -> float:
+    """By how much the range of ground may have changed, [m]."""
+    grazed = range_m > p.near_m  # nearer, things are met
+    rise_m = ROUGH * moved.way_m if grazed else 0.0
+    return range_m * (range_m * moved.tilt_rad + rise_m) / LOW_M
 
 
 def _median(values: Floats) -> float:
