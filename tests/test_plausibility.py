@@ -6,7 +6,8 @@ import numpy as np
 import pytest
 
 from nav.fusion.plausibility import Plausibility
-from nav.fusion.plausibility.scans import Moved, jump_m, steadiness
+from nav.fusion.plausibility.scans import steadiness
+from nav.fusion.plausibility.steps import Seen, step_m
 from nav.messages import (
     CompassHeading,
     Gear,
@@ -163,22 +164,50 @@ def test_leaves_that_half_of_the_beams_pass_are_no_noise():
     assert steadiness(before, after, 20.0, P.scan) > P.scan.steady_share
 
 
-def test_what_comes_nearer_does_not_jump():
-    wall = np.full(361, 10.0)
-    assert jump_m(wall, wall - 0.7, Moved(0.7, 0.0), P.scan) == 0.0
-    assert jump_m(wall, wall - 0.7, Moved(0.1, 0.0), P.scan) == pytest.approx(-0.7)
-    pitched = np.linspace(8.0, 30.0, 361)
-    assert jump_m(pitched, pitched + 0.002 * pitched**2, Moved(0.1, 0.0), P.scan) == 0.0
+def stepped(ranges_m, way_m=0.0):
+    """What is found in the middle of some scans."""
+    return step_m([Seen(r, way_m) for r in ranges_m], P.scan.step)
 
 
-def test_a_far_slope_that_a_level_scanner_grazes_does_not_jump():
-    slope = np.linspace(37.0, 46.0, 361)
-    tilted = Moved(0.23, 0.0073 * 0.0267)
-    assert jump_m(slope, slope + 0.49, tilted, P.scan) == 0.0
-    assert jump_m(slope, slope + 0.49, Moved(0.0, 0.0), P.scan) == pytest.approx(0.49)
+def still(range_m, step: float | np.ndarray = 0.0):
+    """Scans of one scene, and from the middle on an offset."""
+    aside = P.scan.step.quiet_scans
+    return [range_m] * aside + [range_m + step] * aside
 
 
-def test_a_far_slope_over_which_the_vehicle_rises_does_not_jump():
-    slope = np.linspace(35.0, 46.0, 361)  # seen in the race: 0.61 m at 7 m/s, without any tilt
-    assert jump_m(slope, slope + 0.61, Moved(0.19, 0.0), P.scan) == 0.0
-    assert jump_m(slope / 4.0, slope / 4.0 + 0.61, Moved(0.19, 0.0), P.scan) != 0.0
+WALL = np.full(91, 10.0)
+
+
+def test_an_offset_that_comes_is_a_step():
+    assert stepped(still(WALL, 0.5)) == pytest.approx(0.5)
+    assert stepped(still(WALL, 0.1)) == 0.0
+    assert stepped(still(WALL)) == 0.0
+
+
+def test_an_offset_is_seen_from_a_vehicle_that_nears_all_by_its_bearing():
+    bearing = np.linspace(-1.5, 1.5, 91)
+    nearing = [r - 0.19 * k * np.cos(bearing) for k, r in enumerate(still(WALL, 0.5))]
+    assert stepped(nearing, 0.19) == pytest.approx(0.5, abs=0.02)
+    away = [r + 0.19 * k * np.cos(bearing) for k, r in enumerate(still(WALL, 0.5))]
+    assert stepped(away, -0.19) == pytest.approx(0.5, abs=0.02)
+
+
+def test_what_comes_nearer_does_not_step():
+    nearing = [WALL - 0.3 * k for k in range(2 * P.scan.step.quiet_scans)]
+    assert stepped(nearing, 0.3) == 0.0
+    jump = [r - 0.7 * (k >= len(nearing) // 2) for k, r in enumerate(nearing)]
+    assert stepped(jump, 0.3) == pytest.approx(-0.7)
+
+
+def test_a_far_slope_that_is_grazed_does_not_step():
+    """The bumper's scanner in the race at 7 m/s: half a metre from scan to scan, all alike."""
+    slope = np.linspace(35.0, 46.0, 91)
+    for after in (0.58, 0.3, 0.1):
+        shaken = still(slope, 0.61)
+        shaken[-2] = slope + 0.61 - after
+        assert stepped(shaken, 0.19) == 0.0
+
+
+def test_where_too_little_is_seen_nothing_steps():
+    few = np.where(np.arange(91) < 20, 10.0, 81.92)
+    assert stepped(still(few, np.where(few < 81.92, 0.5, 0.0))) == 0.0

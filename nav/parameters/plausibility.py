@@ -16,6 +16,26 @@ class EvidenceParameters:
 
 
 @dataclass(frozen=True)
+class StepParameters:
+    """An offset of a LIDAR comes, or goes."""
+
+    beams: int
+    """Of so many beams, ..."""
+    span: int
+    """... over so many, ..."""
+    least_m: float
+    """... the ranges change from one scan to the next by more ..."""
+    alike_m: float
+    """... within this of each other ..."""
+    alike_share: float
+    """... for this share of the beams, ..."""
+    quiet_scans: int
+    """... and among so many scans before it, and as many after it, ..."""
+    quiet_m: float
+    """... they change by less."""
+
+
+@dataclass(frozen=True)
 class ScanParameters:
     """LIDAR scans."""
 
@@ -33,16 +53,7 @@ class ScanParameters:
     """... is a larger share, but for noise ..."""
     least: int
     """... if so many can be judged."""
-    jump_least: int
-    """Of so many beams, ..."""
-    jump_m: float
-    """... the ranges change at once by more ..."""
-    alike_m: float
-    """... within this of each other ..."""
-    alike_share: float
-    """... for this share of the beams ..."""
-    span: int
-    """... over so many beams: an offset has come, or gone."""
+    step: StepParameters
 
 
 @dataclass(frozen=True)
