@@ -133,6 +133,7 @@ class HighLevelController:
             health=senses.health,
             road=senses.road,
             confirmed_m=senses.confirmed_m,
+            edges=self._edges(obstacles),
             wide=self._wide(ego, boundaries) if troubled else None,
         )
 
@@ -174,6 +175,9 @@ class HighLevelController:
     def _boundaries(self, obstacles: ObstacleMap) -> Boundaries:
         level = np.maximum(self._obstacle_level(obstacles), self._corridor_level(obstacles))
         return Boundaries(level, obstacles.origin_m, obstacles.cell_m)
+
+    def _edges(self, obstacles: ObstacleMap) -> Boundaries:
+        return Boundaries(self._corridor_level(obstacles), obstacles.origin_m, obstacles.cell_m)
 
     def _obstacle_level(self, obstacles: ObstacleMap) -> Cells:
         """The boundaries of obstacles; expanded anew when an obstacle has come or gone."""

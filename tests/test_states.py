@@ -14,6 +14,7 @@ from nav.planning.scanning import Boundaries
 from nav.states.machine import Machine
 from nav.states.situation import Situation
 from nav.states.transitions import TRANSITIONS
+from nav.states.trouble import Trouble
 from scenarios.parameter_files import parameter_texts
 
 P = parameters_from(parameter_texts())
@@ -147,3 +148,20 @@ def test_a_path_that_ends_before_it_is_joined_is_not_clear():
     assert m.reason == "smooth path ends before it is joined"
     m.decide(replace(missed, cross_track_m=0.1))
     assert m.state == "path_point_keeping"
+
+
+def test_a_way_around_is_looked_for_at_once_and_not_kept_beyond_the_trouble():
+    trouble, s = Trouble(), replace(situation(), far_goal_m=(20.0, 0.0))
+    s = replace(s, wide=s.boundaries)
+    trouble.look(s, P.states.stuck)
+    assert trouble.way == []
+    for _ in range(2):  # the second time as the first
+        trouble.begin(s)
+        trouble.look(s, P.states.stuck)
+        assert trouble.way
+        assert trouble.goal_m is not None
+        on = replace(s, arc_m=s.arc_m + 2.0 * P.states.stuck.progress_m)
+        trouble.observe(on, 0.1, P.states.stuck)
+        trouble.look(on, P.states.stuck)
+        assert trouble.way == []
+        assert trouble.goal_m is None

@@ -81,6 +81,16 @@ def test_the_guard_stands_before_what_two_sensors_confirm(override, confirmed_m,
         assert isinstance(plan.command, DirectCommand)
 
 
+@pytest.mark.parametrize(("override", "drives"), [("paper", True), ("guarded", False)])
+def test_the_guard_stands_before_the_corridors_edge(override, drives):
+    across = situation(WALL)  # its boundary begins where the vehicle's nose is
+    plan = seized(override).decide(replace(situation(), edges=across.boundaries))
+    assert isinstance(plan.command, FollowPath) is drives
+    far = situation((6.0, 8.0, -30.0, 30.0))
+    plan = seized(override).decide(replace(situation(), edges=far.boundaries))
+    assert isinstance(plan.command, FollowPath)
+
+
 def test_it_lets_go_after_its_distance():
     machine = seized("paper")
     machine.decide(situation())

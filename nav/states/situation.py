@@ -51,7 +51,8 @@ class Situation:
     """What is said of the road, if it is fresh."""
     confirmed_m: float = FAR_M
     """Distance ahead that two sensors confirm to be occupied."""
-
+    edges: Boundaries | None = None
+    """Those of the corridor's edge alone."""
     wide: Boundaries | None = None
     """In trouble: the corridor and what is known in it, in larger cells, as far as 64 m away."""
 

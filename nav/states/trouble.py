@@ -46,7 +46,7 @@ class Trouble:
     def begin(self, s: Situation) -> None:
         """The vehicle is stuck here."""
         if self.arc_m is None:
-            self.arc_m = s.arc_m
+            self.arc_m, self._looked = s.arc_m, 0
 
     def observe(self, s: Situation, elapsed_s: float, p: StuckParameters) -> None:
         """Take the time since the last decision, and see whether it is over."""
@@ -71,8 +71,8 @@ class Trouble:
         return inf if self.goal_m is None else dist(self.goal_m, s.pose[:2])
 
     def look(self, s: Situation, p: StuckParameters) -> None:
-        """Find the way around anew, now and then."""
-        if s.wide is None:
+        """While there is trouble, find the way around anew, now and then: at once as it begins."""
+        if s.wide is None or self.arc_m is None:
             return
         if self._looked % EVERY == 0:
             self.way = way_around(s.wide, s.pose[:2], s.far_goal_m)

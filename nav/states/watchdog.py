@@ -3,7 +3,8 @@
 When the position does not change, or another state than the two main ones lasts too long, the
 machine is reset to Path-Point Keeping and stays there, with a high throttle, regardless of
 obstacles, until the vehicle has come a certain distance. That is `override = "paper"`. `"guarded"`
-ignores the map as well, but stands still before what two sensors confirm within D_safe.
+ignores the map as well, but stands still before what two sensors confirm within D_safe, and before
+the edge of the corridor.
 """
 
 from dataclasses import dataclass
@@ -12,12 +13,14 @@ from math import hypot
 from nav.messages import FollowPath
 from nav.parameters import Parameters
 from nav.parameters.states import WatchdogParameters
-from nav.planning.arcs import Pose
+from nav.planning.arcs import Pose, free_arc
 from nav.planning.local_path import path_length, pathpoints
 from nav.states.memory import Memory
 from nav.states.situation import Plan, Situation, stand
 
 MAIN_STATES = ("path_point_keeping", "obstacle_avoidance")
+EDGE_M = 0.5
+"""It stands so far before the corridor's edge."""
 PATIENT_STATES = ("alarm",)
 """Where the vehicle stands on purpose, and for a limited time."""
 
@@ -73,13 +76,22 @@ class Watchdog:
 def plan(s: Situation, memory: Memory, p: Parameters) -> Plan:
     """The smooth path with a high throttle, whatever the map says."""
     w = p.states.watchdog
-    if w.override == "guarded" and s.confirmed_m < _stopping_m(s, w) + p.speed.safe_distance_m:
+    if w.override == "guarded" and _dares_not(s, p):
         return stand(s)
     length = path_length(s.ego.speed_mps, p.planning.local_path)
     memory.follow(pathpoints(s.route_ahead, length), s.waypoint)
     assert memory.pathpoint_m is not None
     command = FollowPath(s.time_ns, memory.pathpoint_m, w.speed_mps, w.throttle)
     return Plan(command, w.speed_mps, float(s.route_ahead.heading_rad[0]), replanned="watchdog")
+
+
+def _dares_not(s: Situation, p: Parameters) -> bool:
+    """Whether the way to a stand would lead too near to what is there for certain."""
+    stopping_m = _stopping_m(s, p.states.watchdog)
+    if s.confirmed_m < stopping_m + p.speed.safe_distance_m:
+        return True
+    way_m, foot = stopping_m + EDGE_M, p.planning.footprint
+    return s.edges is not None and free_arc(s.pose, s.curvature_per_m, way_m, s.edges, foot) < way_m
 
 
 def _stopping_m(s: Situation, p: WatchdogParameters) -> float:
