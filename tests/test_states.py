@@ -12,8 +12,9 @@ from nav.planning.curve import sampled
 from nav.planning.local_path import clear_distances
 from nav.planning.scanning import Boundaries
 from nav.states.machine import Machine
+from nav.states.memory import Memory
 from nav.states.situation import Situation
-from nav.states.transitions import TRANSITIONS
+from nav.states.transitions import TRANSITIONS, room_again
 from nav.states.trouble import Trouble
 from scenarios.parameter_files import parameter_texts
 
@@ -165,3 +166,12 @@ def test_a_way_around_is_looked_for_at_once_and_not_kept_beyond_the_trouble():
         trouble.look(on, P.states.stuck)
         assert trouble.way == []
         assert trouble.goal_m is None
+
+
+def test_who_cannot_roll_back_any_farther_operates_again():
+    memory = Memory()
+    memory.trouble.rolls_far = True
+    assert room_again(situation(), memory, P) == "0.0 m back"
+    for k in range(20):
+        memory.trail.record((0.5 * k - 9.5, 0.0, 0.0), P.states.rollback.longest_m)
+    assert room_again(situation(), memory, P) == ""

@@ -166,12 +166,9 @@ def no_forward_path(s: Situation, memory: Memory, p: Parameters) -> str:
 
 def room_again(s: Situation, memory: Memory, p: Parameters) -> str:
     """Far enough from the obstacle for robotic operations, or as far as it can go."""
-    if memory.trouble.rolls_far:
-        return ""
     rolled = rollback.rolled_m(s, memory)
-    if rolled < p.states.rollback.back_off_m and rollback.way_back_m(s, memory, p) > 0.0:
-        return ""
-    return f"{rolled:.1f} m back"
+    enough = rolled >= p.states.rollback.back_off_m and not memory.trouble.rolls_far
+    return f"{rolled:.1f} m back" if enough or rollback.way_back_m(s, memory, p) <= 0.0 else ""
 
 
 def another_path(s: Situation, memory: Memory, p: Parameters) -> str:
