@@ -6,7 +6,7 @@ from math import isfinite, sqrt
 from typing import Any
 
 from nav.messages import ActuatorTargets
-from scenarios.behaviour.motion import newest
+from scenarios.behaviour.motion import MOVES_MPS, newest
 from scenarios.episode import Episode
 from scenarios.parameter_files import parameters_of
 from tape.record import Record
@@ -16,7 +16,8 @@ LATE_NS = 100_000_000
 ROLLS_MPS = 0.3
 """Faster than this the linkage leaves no position (estimated, models/README.md)."""
 REVERSAL_RADPS = 0.05
-"""Slower changes of the steering are no reversals: a sixth of what ION's steering can do."""
+"""Slower changes of the steering are no reversals: a sixth of what ION's steering can do, and one
+milliradian from tick to tick."""
 
 
 @dataclass
@@ -29,7 +30,7 @@ class Commands:
     reversals: int = 0
     _last: ActuatorTargets | None = None
     _steered: tuple[float, float] | None = None
-    """Time [s] and angle [rad] of the last tick whose steering was a number."""
+    """Time [s] and angle [rad] of the last tick, if the vehicle moved and this is a number."""
     _time_s: float = 0.0
     _sum2: float = 0.0
     """Of the rates, a second."""
@@ -44,8 +45,11 @@ class Commands:
             return
         self.infeasible += not (_possible(episode, targets) and self._can_shift(episode, targets))
         self._last = targets
-        if isfinite(targets.steering_rad):
+        # At a stand the wheels are turned as far as need be, or where they happen to be.
+        if isfinite(targets.steering_rad) and abs(episode.truth.speed_mps) > MOVES_MPS:
             self._steer(now_ns * 1e-9, targets.steering_rad)
+        else:
+            self._steered = None
 
     def _can_shift(self, episode: Episode, targets: ActuatorTargets) -> bool:
         """A new gear may be asked for at a stand only."""
@@ -54,7 +58,7 @@ class Commands:
 
     def _steer(self, now_s: float, steering_rad: float) -> None:
         then, self._steered = self._steered, (now_s, steering_rad)
-        if then is None or now_s <= then[0]:
+        if then is None:
             return
         gone_s = now_s - then[0]
         rate = (steering_rad - then[1]) / gone_s
@@ -65,7 +69,7 @@ class Commands:
             self._turned = rate
 
     def figures(self) -> dict[str, Any]:
-        """What was counted; None where there were no two angles."""
+        """What was counted; None where it did not move."""
         time_s = self._time_s
         return {
             "commands_infeasible": self.infeasible,

@@ -18,7 +18,7 @@ START = MAIN_STATES[0]
 def _known() -> frozenset[str]:
     """All transitions of the diagram, as `nav.states.diagram` draws it."""
     guarded = [f"{a}>{b}" for a, ways in TRANSITIONS.items() for b, _ in ways]
-    return frozenset([*guarded, *(f"{a}>{START}" for a in TRANSITIONS)])
+    return frozenset([*guarded, *(f"{a}>{START}" for a in TRANSITIONS if a != START)])
 
 
 KNOWN = _known()
