@@ -312,7 +312,7 @@ def test_a_lower_limit_holds_from_fifteen_metres_behind_its_waypoint():
 
 
 def test_behind_the_finish_the_last_limit_holds():
-    assert run_along([4.0, 0.0], [(10, 4.0, 0), (10, 4.0, 1)])["over_limit_mps"] == 0.0
+    assert run_along([4.0, 0.0], [(10, 4.0, 0), (300, 4.0, 1)])["over_limit_mps"] == 0.0
 
 
 def test_mean_speed_and_the_way_backwards():
