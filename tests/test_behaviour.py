@@ -6,6 +6,7 @@ import pickle
 import re
 from dataclasses import replace
 from types import SimpleNamespace
+from typing import Any
 
 import numpy as np
 import pytest
@@ -45,7 +46,8 @@ class FakePlant:
         self.applied = Applied(0.0, 0.0, 0.0, 3, shifting, 3.0)
 
 
-def episode(k, x=0.0, speed=0.0, heading=0.0, clearance_m=math.inf, segment=0, **other):
+def episode(k, x=0.0, speed=0.0, heading=0.0, clearance_m=math.inf, segment=0, **other) -> Any:
+    """What the figures ask of an episode."""
     judge = SimpleNamespace(
         clearance=SimpleNamespace(now_m=clearance_m), progress=SimpleNamespace(segment=segment)
     )
@@ -278,7 +280,7 @@ def test_the_words_are_those_of_the_watchdog():
     dog = Watchdog(outside_s=DOG.outside_s + 1.0)
     assert bit(dog.bites(DOG))
     dog = Watchdog(drives_s=DOG.longest_s + 1.0)
-    here = SimpleNamespace(pose=(0.0, 0.0, 0.0))
+    here: Any = SimpleNamespace(pose=(0.0, 0.0, 0.0))
     assert not bit(dog.lets_go(here, (0.0, 0.0, 0.0), DOG))
     assert not bit(dog.lets_go(here, (100.0, 0.0, 0.0), DOG))
 
