@@ -2,6 +2,7 @@
 
 from collections import deque
 from collections.abc import Callable, Sequence
+from copy import deepcopy
 from dataclasses import dataclass, field, replace
 from functools import partial
 from math import copysign, nan, radians
@@ -73,9 +74,9 @@ class Shaking:
         return replace(targets, steering_rad=targets.steering_rad + error)
 
 
-def _shaking() -> Shaking:
+def _rng() -> np.random.Generator:
     key = tuple(b"shaking_steering")
-    return Shaking(np.random.default_rng(np.random.SeedSequence(0, spawn_key=key)))
+    return np.random.default_rng(np.random.SeedSequence(0, spawn_key=key))
 
 
 def _reversed(targets: ActuatorTargets) -> ActuatorTargets:
@@ -113,33 +114,26 @@ def _not_a_number(targets: ActuatorTargets) -> ActuatorTargets:
     return replace(targets, steering_rad=nan) if spoiled else targets
 
 
-def _as(act: Act) -> Act:
-    return act
+_HANDS: dict[str, tuple[str, Act]] = {
+    "reversed_steering": ("Left and right are exchanged.", _reversed),
+    "half_lock": ("The steering turns to half its lock at most.", _half_lock),
+    "crooked_steering": ("The steering is 3 degrees to the left.", _crooked),
+    "shaking_steering": ("The steering angle has a large random error.", Shaking(_rng())),
+    "nan_targets": ("In one second of four the steering angle is not a number.", _not_a_number),
+    "late_commands": ("Targets leave 0.3 s late.", Late()),
+    "lost_commands": ("Targets of every other second are lost.", Losing()),
+    "half_brakes": ("The brakes get half of what they should.", partial(_braking, 0.5)),
+    "no_brakes": ("The brakes are never applied.", partial(_braking, 0.0)),
+    "stuck_throttle": ("The throttle never closes below a quarter.", _stuck_throttle),
+    "throttle_while_braking": ("Full throttle while the brakes are applied.", _throttle_and_brake),
+    "no_reverse": ("The reverse gear is never asked for.", _no_reverse),
+}
 
 
-_HANDS: dict[str, tuple[str, Callable[[], Act]]] = {
-    "reversed_steering": ("Left and right are exchanged.", partial(_as, _reversed)),
-    "late_commands": ("Targets leave 0.3 s late.", Late),
-    "lost_commands": ("Targets of every other second are lost.", Losing),
-    "half_brakes": ("The brakes get half of what they should.",
-                    partial(_as, partial(_braking, 0.5))),
-    "no_brakes": ("The brakes are never applied.", partial(_as, partial(_braking, 0.0))),
-    "stuck_throttle": ("The throttle never closes below a quarter.",
-                       partial(_as, _stuck_throttle)),
-    "throttle_while_braking": ("Full throttle while the brakes are applied.",
-                               partial(_as, _throttle_and_brake)),
-    "half_lock": ("The steering turns to half its lock at most.", partial(_as, _half_lock)),
-    "crooked_steering": ("The steering is 3 degrees to the left.", partial(_as, _crooked)),
-    "shaking_steering": ("The steering angle has a large random error.", _shaking),
-    "no_reverse": ("The reverse gear is never asked for.", partial(_as, _no_reverse)),
-    "nan_targets": ("In one second of four the steering angle is not a number.",
-                    partial(_as, _not_a_number)),
-}  # fmt: skip
+def _misacts(act: Act, navigator: IonNavigator) -> IonNavigator:
+    """Each with hands of its own, for some remember."""
+    return remade(Misacting, navigator, act=deepcopy(act))
 
 
-def _misacts(hands: Callable[[], Act], navigator: IonNavigator) -> IonNavigator:
-    return remade(Misacting, navigator, act=hands())
-
-
-ACTING = {name: Mutant(why, partial(_misacts, hands)) for name, (why, hands) in _HANDS.items()}
+ACTING = {name: Mutant(why, partial(_misacts, act)) for name, (why, act) in _HANDS.items()}
 """By name."""

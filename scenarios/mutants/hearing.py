@@ -2,6 +2,7 @@
 
 from collections import deque
 from collections.abc import Callable, Sequence
+from copy import deepcopy
 from dataclasses import dataclass, field, replace
 from functools import partial
 from typing import Any
@@ -105,7 +106,7 @@ def _blind_roof(scan: LidarScan) -> LidarScan:
     return replace(scan, range_m=far) if scan.sensor == "lidar_roof" else scan
 
 
-def _farsighted(scan: LidarScan) -> LidarScan:
+def _far(scan: LidarScan) -> LidarScan:
     return replace(scan, range_m=np.where(scan.range_m < NEAR_M, NO_RETURN_M, scan.range_m))
 
 
@@ -131,7 +132,7 @@ def _clockwise(heading: CompassHeading) -> CompassHeading:
 
 
 def _turned_over(sample: ImuSample) -> ImuSample:
-    return replace(sample, angular_rate_radps=-sample.angular_rate_radps)
+    return replace(sample, angular_rate_radps=sample.angular_rate_radps * (1.0, -1.0, -1.0))
 
 
 def _in_miles(state: VehicleState) -> VehicleState:
@@ -146,37 +147,34 @@ def _high_gear(state: VehicleState) -> VehicleState:
     return replace(state, gear=Gear.HIGH)
 
 
-_EARS: dict[str, tuple[str, Callable[[], Hear]]] = {
-    "deaf_sonar": ("The sonars hear no echo.", partial(Each, SonarScan, _deaf)),
-    "blind_roof": ("The roof scanner sees nothing return.", partial(Each, LidarScan, _blind_roof)),
-    "farsighted_scanners": (
-        "The scanners do not see what is nearer than 8 m.", partial(Each, LidarScan, _farsighted),
+_EARS: dict[str, tuple[str, Hear]] = {
+    "deaf_sonar": ("The sonars hear no echo.", Each(SonarScan, _deaf)),
+    "blind_roof": ("For the roof scanner nothing returns.", Each(LidarScan, _blind_roof)),
+    "farsighted_scanners": ("No scanner sees what is nearer than 8 m.", Each(LidarScan, _far)),
+    "long_ranges": ("All LIDAR ranges are a quarter too long.", Each(LidarScan, _longer)),
+    "mirrored_scans": ("The first beam is taken for the left one.", Each(LidarScan, _mirrored)),
+    "swapped_scanners": ("The left scanner is taken for the right.", Each(LidarScan, _swapped)),
+    "late_scans": ("Scans are 0.4 s old and are taken for new.", LateScans()),
+    "frozen_gps": ("After ten seconds GPS says the same position again and again.", FrozenGps()),
+    "gps_never_lost": ("A lost GPS is believed where it was last.", Each(GpsFix, _never_lost)),
+    "clockwise_compass": ("The compass counts clockwise.", Each(CompassHeading, _clockwise)),
+    "gyro_turned_over": ("The gyro is mounted upside down.", Each(ImuSample, _turned_over)),
+    "wheels_in_miles": ("Wheel speeds are miles, not kilometres.", Each(VehicleState, _in_miles)),
+    "steering_reads_mirrored": (
+        "The steering angle that is read back has the opposite sign.",
+        Each(VehicleState, _right_is_left),
     ),
-    "long_ranges": ("All LIDAR ranges are a quarter too long.", partial(Each, LidarScan, _longer)),
-    "mirrored_scans": ("The first beam is taken for the left one.",
-                       partial(Each, LidarScan, _mirrored)),
-    "swapped_scanners": ("The scanners of left and right are plugged in the wrong way round.",
-                         partial(Each, LidarScan, _swapped)),
-    "late_scans": ("Scans are 0.4 s old and are taken for new.", LateScans),
-    "frozen_gps": ("After ten seconds GPS says the same position again and again.", FrozenGps),
-    "gps_never_lost": ("The last position of a lost GPS is taken for a good fix.",
-                       partial(Each, GpsFix, _never_lost)),
-    "clockwise_compass": ("The compass counts clockwise.",
-                          partial(Each, CompassHeading, _clockwise)),
-    "gyro_turned_over": ("The gyro's rates have the opposite sign.",
-                         partial(Each, ImuSample, _turned_over)),
-    "wheels_in_miles": ("Wheel speeds are in miles where kilometres are meant.",
-                        partial(Each, VehicleState, _in_miles)),
-    "steering_reads_mirrored": ("The steering angle that is read back has the opposite sign.",
-                                partial(Each, VehicleState, _right_is_left)),
-    "gear_reads_high": ("The linkage says that it is in the high gear, wherever it is.",
-                        partial(Each, VehicleState, _high_gear)),
-}  # fmt: skip
+    "gear_reads_high": (
+        "The linkage says that it is in the high gear, wherever it is.",
+        Each(VehicleState, _high_gear),
+    ),
+}
 
 
-def _mishears(ears: Callable[[], Hear], navigator: IonNavigator) -> IonNavigator:
-    return remade(Mishearing, navigator, hear=ears())
+def _mishears(hear: Hear, navigator: IonNavigator) -> IonNavigator:
+    """Each with ears of its own, for some remember."""
+    return remade(Mishearing, navigator, hear=deepcopy(hear))
 
 
-HEARING = {name: Mutant(why, partial(_mishears, ears)) for name, (why, ears) in _EARS.items()}
+HEARING = {name: Mutant(why, partial(_mishears, hear)) for name, (why, hear) in _EARS.items()}
 """By name."""
