@@ -21,8 +21,8 @@ LATE_TICKS = 15
 CROOKED_RAD = radians(3.0)
 SHAKING_RAD = 0.15
 HALF_LOCK_RAD = 0.288
-OPEN = 0.25
-"""A throttle that drives on level ground."""
+OPEN = 0.6
+"""More than any limit of a trial needs on level ground."""
 
 
 class Misacting(IonNavigator):
@@ -124,7 +124,7 @@ _HANDS: dict[str, tuple[str, Act]] = {
     "lost_commands": ("Targets of every other second are lost.", Losing()),
     "half_brakes": ("The brakes get half of what they should.", partial(_braking, 0.5)),
     "no_brakes": ("The brakes are never applied.", partial(_braking, 0.0)),
-    "stuck_throttle": ("The throttle never closes below a quarter.", _stuck_throttle),
+    "stuck_throttle": ("The throttle never closes below six tenths.", _stuck_throttle),
     "throttle_while_braking": ("Full throttle while the brakes are applied.", _throttle_and_brake),
     "no_reverse": ("The reverse gear is never asked for.", _no_reverse),
 }
