@@ -306,3 +306,11 @@ def test_a_state_is_never_entered(name, monkeypatch):
         machine.decide(seen)
         states.append(navigator.state)
     assert states == [state, "path_point_keeping"]
+
+
+def test_a_state_that_is_never_entered_does_not_hide_the_next(monkeypatch):
+    due = tuple((state, lambda s, m, p: "due") for state in ("alarm", "obstacle_avoidance"))
+    monkeypatch.setitem(TRANSITIONS, "path_point_keeping", due)
+    navigator = mutant("never_alarm")
+    navigator.high_level.machine.decide(drive().situation)
+    assert navigator.state == "obstacle_avoidance"
