@@ -38,6 +38,7 @@ def _command() -> int:
     from ion.replay.options import Options as ReplayOptions
     from ion.report.options import Options as ReportOptions
     from ion.route.options import Options as RouteOptions
+    from ion.scenarios.options import Options as ScenariosOptions
     from ion.truth.options import Options as TruthOptions
     from ion.view.options import Options as ViewOptions
 
@@ -98,6 +99,13 @@ def _command() -> int:
         from ion.route import command
 
         return command.route(options)
+
+    @app.command
+    def scenarios(options: Annotated[ScenariosOptions, tyro.conf.arg(name="")]) -> int:
+        """List what can be driven by name, and what one's own scenario files say."""
+        from ion.scenarios import command
+
+        return command.scenarios(options)
 
     @app.command
     def truth(options: Annotated[TruthOptions, tyro.conf.arg(name="")]) -> int:

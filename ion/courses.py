@@ -11,7 +11,15 @@ from ion.errors import UsageError
 from scenarios.scenario import scenario_names
 
 if TYPE_CHECKING:
+    from nav.parameters import Parameters
     from scenarios.course import Course
+    from scenarios.episode import Episode
+    from scenarios.scenario_file import ScenarioFile
+
+SUFFIX = ".toml"
+"""Of a scenario's file."""
+SCENARIO_FILE = "scenario_file.json"
+"""What a tape calls it, read and with all that it needs."""
 
 
 @dataclass(frozen=True)
@@ -29,10 +37,14 @@ class Source:
     """What the scenario was told beyond the seed: names and values."""
     faults: tuple[str, ...] = ()
     """What fails beyond the scenario's own, one line each."""
+    file: "ScenarioFile | None" = None
+    """A scenario of the user's own, and then no other."""
 
     @property
     def title(self) -> str:
         """For tables."""
+        if self.file:
+            return self.file.name
         return self.scenario or f"{Path(self.route_name).stem}_{self.first}-{self.last}"
 
     @property
@@ -45,7 +57,7 @@ class Source:
     def said(self) -> dict[str, str]:
         """All but the seed and the route's text, as short texts."""
         said = {"faults": "; ".join(self.faults)} if self.faults else {}
-        if self.scenario:
+        if self.scenario or self.file:
             return said | {name: str(value) for name, value in self.options}
         return said | {"from": str(self.first), "to": str(self.last)}
 
@@ -60,7 +72,24 @@ class Source:
 
         return failing(self._course(seed), self.faults)
 
+    def episode(
+        self, seed: int, ablate: tuple[str, ...], parameters: "Parameters | None" = None
+    ) -> "Episode":
+        """The drive at its start, with the navigator's own parameters or with others.
+
+        Raises:
+            NavError: a route or parameters that the navigator refuses.
+            ValueError: a line that is no fault, or an unknown ablation.
+        """
+        from scenarios.episode import Episode
+
+        if self.file:
+            return self.file.failing(self.faults, ablate).episode(seed, parameters)
+        return Episode(self.course(seed), seed, ablate, parameters)
+
     def _course(self, seed: int) -> "Course":
+        if self.file:
+            return self.file.course_of(seed)
         if self.scenario:
             course = import_module(f"scenarios.{self.scenario}.course")
             return course.build(seed, **dict(self.options))
@@ -70,14 +99,16 @@ class Source:
 
 
 def scenario_source(name: str, options: Mapping[str, Any] | None = None) -> Source:
-    """A scenario by its name, with options of its own.
+    """A scenario by its name, with options of its own, or by the path of its file.
 
     Raises:
         UsageError: there is none of this name; lists those that exist. Or an option that it does
-            not take, or a value that it does not allow.
+            not take, or a value that it does not allow. Or the file is no scenario.
     """
     from scenarios.scenario import check_options
 
+    if name.endswith(SUFFIX):
+        return _file_source(Path(name), options or {})
     if name not in scenario_names():
         raise UsageError(f"scenario {name!r} is unknown; there are: {', '.join(scenario_names())}")
     given = dict(options or {})
@@ -86,6 +117,17 @@ def scenario_source(name: str, options: Mapping[str, Any] | None = None) -> Sour
     except ValueError as error:
         raise UsageError(str(error)) from error
     return Source(name, options=tuple(given.items()))
+
+
+def _file_source(path: Path, options: Mapping[str, Any]) -> Source:
+    from scenarios.scenario_file import ScenarioFileError, read_scenario
+
+    if options:
+        raise UsageError(f"--{next(iter(options))}: expected in the file, under [options]")
+    try:
+        return Source("", file=read_scenario(path))
+    except ScenarioFileError as error:
+        raise UsageError(str(error)) from error
 
 
 def route_source(path: Path, first: int | None, last: int | None) -> Source:

@@ -87,7 +87,13 @@ def _told(counts: dict[str, Any]) -> str:
 
 
 def _code(results: list[dict[str, Any]]) -> int:
-    outcomes = [result["outcome"] for result in results]
-    if "interrupted" in outcomes:
+    if any(result["outcome"] == "interrupted" for result in results):
         return INTERRUPTED
-    return FINISHED if all(word == "finished" for word in outcomes) else NOT_FINISHED
+    return FINISHED if all(map(_as_asked, results)) else NOT_FINISHED
+
+
+def _as_asked(result: Result) -> bool:
+    """Whether a drive is what its scenario's file asks of it; without one, whether it arrived."""
+    if "verdicts" in result:
+        return all(verdict["passed"] for verdict in result["verdicts"])
+    return result["outcome"] == "finished"

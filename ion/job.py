@@ -6,7 +6,7 @@ from importlib.resources import files
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from ion.courses import Source
+from ion.courses import SCENARIO_FILE, Source
 from ion.segments import Checkpoint, Checkpoints, Segments, is_long
 from scenarios.batch import stop_asked
 from scenarios.processor import fingerprint
@@ -43,11 +43,12 @@ class Job:
             OSError: tape or map cannot be written.
         """
         from ion.trace import Trace
-        from scenarios.episode import Episode
+        from scenarios.behaviour import Behaviour
         from scenarios.events import Events
 
-        episode = Episode(self.source.course(seed), seed, self.ablate)
-        return self.go_on(Checkpoint(self, seed, 0, episode, Trace(), Events()), watches)
+        episode = self.source.episode(seed, self.ablate)
+        start = Checkpoint(self, seed, 0, episode, Trace(), Events(), Behaviour())
+        return self.go_on(start, watches)
 
     def go_on(self, start: "Checkpoint", watches: Sequence[Watch] = ()) -> dict[str, Any]:
         """As `drive`, from where a checkpoint was written.
@@ -60,14 +61,15 @@ class Job:
         from scenarios.events import as_rows
         from scenarios.true_states import TrueStates
 
-        _, seed, _, episode, trace, events = start
+        _, seed, _, episode, trace, events, behaviour = start
         course, tape = episode.course, self._log(episode.course, seed)
         with self._tape(start, tape) as writer:
-            told = [*watches, trace, events, TrueStates(writer)]
+            told = [*watches, trace, events, behaviour, TrueStates(writer)]
             if isinstance(writer, Segments):
                 told.append(Checkpoints(start, writer))
-            figures = run(episode, writer, told)
+            figures = run(episode, writer, told) | behaviour.figures()
             figures |= {"scenario": self.source.title, "ablate": list(self.ablate)}
+            figures |= self._verdicts(figures)
             wanted = not self.failures_only or figures["outcome"] != "finished"
             if wanted:
                 writer.keep()
@@ -78,6 +80,11 @@ class Job:
             return figures | {"log": None, "map": None}
         log = None if self.log == "off" else str(tape)
         return figures | {"log": log, "map": self._draw(course, trace, episode, seed)}
+
+    def _verdicts(self, figures: dict[str, Any]) -> dict[str, Any]:
+        """What a scenario's file asks of a drive, and whether it is so."""
+        file = self.source.file
+        return {"verdicts": [v._asdict() for v in file.judged(figures)]} if file else {}
 
     def drive_in_worker(self, seed: int) -> dict[str, Any]:
         """As `drive`, for `scenarios.batch`: stops when the user wants no more."""
@@ -129,6 +136,8 @@ class Job:
         if self.source.scenario:
             folder = files("scenarios") / self.source.scenario
             attached["scenario.toml"] = (folder / "scenario.toml").read_text(encoding="utf-8")
+        if self.source.file:
+            attached[SCENARIO_FILE] = self.source.file.as_json()
         return attached
 
     def _draw(self, course: "Course", trace: "Trace", episode: "Episode", seed: int) -> str:

@@ -5,9 +5,10 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from ion.courses import Source, scenario_names
+from ion.courses import SCENARIO_FILE, Source, scenario_names
 from nav.parameters import parameters_from
 from scenarios.events import Event
+from scenarios.scenario_file import from_json
 from tape.errors import TapeError
 from tape.reader import attachments, metadata
 
@@ -41,7 +42,9 @@ class Recorded:
     def command(self) -> str:
         """What one types to drive it again."""
         said, words = self.said, ["ion drive"]
-        if said["scenario"] in scenario_names():
+        if SCENARIO_FILE in self.files:
+            words += [f"{said['scenario']}.toml"]
+        elif said["scenario"] in scenario_names():
             words += [said["scenario"], *(f"--{k} {said[k]}" for k in _options(said))]
         else:
             words += [f"--route ROUTE --from {said['from']} --to {said['to']}"]
@@ -65,11 +68,9 @@ class Recorded:
         Raises:
             TapeError: as `course`.
         """
-        from scenarios.episode import Episode
-
-        course = self.course()
-        parameters = parameters_from(self.files, course.vehicle)
-        return Episode(course, self.seed, tuple(self.said["ablate"].split()), parameters)
+        source = _source(self.said, self.files)
+        parameters = parameters_from(self.files, self.said["vehicle"])
+        return source.episode(self.seed, tuple(self.said["ablate"].split()), parameters)
 
 
 def recorded(log: Path) -> Recorded:
@@ -89,6 +90,8 @@ def recorded(log: Path) -> Recorded:
 
 def _source(said: dict[str, str], files: dict[str, str]) -> Source:
     name, faults = said["scenario"], _faults(said)
+    if SCENARIO_FILE in files:
+        return Source("", file=from_json(files[SCENARIO_FILE]), faults=faults)
     if name in scenario_names():
         return Source(name, options=tuple(_options(said).items()), faults=faults)
     route = next(iter(files))  # attached first

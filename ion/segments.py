@@ -12,6 +12,7 @@ from scenarios.checkpoint import CheckpointError, load, save
 if TYPE_CHECKING:
     from ion.job import Job
     from ion.trace import Trace
+    from scenarios.behaviour import Behaviour
     from scenarios.course import Course
     from scenarios.episode import Episode
     from scenarios.events import Events
@@ -88,9 +89,11 @@ class Checkpoint(NamedTuple):
     """The tape's next."""
     episode: "Episode"
     trace: "Trace"
-    """What has been seen so far, for the map ..."""
+    """What has been seen so far, for the map, ..."""
     events: "Events"
-    """... and what has happened."""
+    """... what has happened, ..."""
+    behaviour: "Behaviour"
+    """... and how it was driven."""
 
 
 class Checkpoints:

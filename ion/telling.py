@@ -126,6 +126,7 @@ def rows(r: Result) -> list[tuple[str, str]]:
         ("waypoints", f"{r['waypoints_passed']} of {r['waypoints_total']}"),
         ("states", states),
         ("digest", r["digest"]),
+        *((f"verdict on {v['figure']}", _verdict(v)) for v in r.get("verdicts", ())),
         *(
             (name, r[key] or "not kept")
             for name, key in (("tape", "log"), ("map", "map"))
@@ -137,6 +138,12 @@ def rows(r: Result) -> list[tuple[str, str]]:
 def way(distance_m: float) -> str:
     """In miles, or metres where it is short."""
     return f"{distance_m:.0f} m" if distance_m < SHORT_M else f"{distance_m / MILE_M:.2f} miles"
+
+
+def _verdict(v: Result) -> str:
+    value = f"{v['value']:.4g}" if isinstance(v["value"], float) else v["value"]
+    found = "not measured" if v["value"] is None else value
+    return f"{'passed' if v['passed'] else 'FAILED'}: {found}, expected {v['expected']}"
 
 
 def _clock(seconds: float) -> str:

@@ -13,6 +13,7 @@ from scenarios.vehicles import VEHICLES
 from scenarios.verdicts import Judge
 from tape.digest import Digest
 from tape.record import Record, record
+from twin.sensors.parameters import SensorParameters
 from twin.truth import Truth
 
 
@@ -24,6 +25,7 @@ class Episode:
         seed: draws noise, sensor mounting and gear shifts.
         ablate: what is crippled, see `scenarios.ablation`.
         nav_parameters: the navigator's; those that come with it by default.
+        sensors: of a vehicle in MuJoCo; its own by default.
 
     Raises:
         NavError: a route or parameters that the navigator refuses.
@@ -36,13 +38,14 @@ class Episode:
         seed: int,
         ablate: tuple[str, ...] = (),
         nav_parameters: Parameters | None = None,
+        sensors: SensorParameters | None = None,
     ) -> None:
         self.course, self.seed, self.ablate = course, seed, ablate
         route = rddf.parse(course.route_text, course.route_name)
         vehicle = VEHICLES[course.vehicle]
         self.navigator = IonNavigator(nav_parameters or parameters_of(course.vehicle), route)
         silent = disabled_sensors(ablate, vehicle.lidars, vehicle.radars)
-        self.simulator = vehicle.twin(course.world, seed, silent)
+        self.simulator = vehicle.begin(course.world, seed, silent, sensors)
         path = self.navigator.high_level.route
         self.judge = Judge(course, outline=vehicle.outline, path=path)
         self.digest = Digest()

@@ -11,7 +11,8 @@ from scenarios.verdicts.shapes import Outline
 from twin import pioneer
 from twin.dubins import DubinsSimulator, dubins_parameters
 from twin.faults import ACTUATORS
-from twin.simulator import Simulator
+from twin.sensors.parameters import SensorParameters
+from twin.simulator import RANGER, Kind, Simulator
 from twin.truth import Truth
 from twin.world import World
 
@@ -45,6 +46,8 @@ class Vehicle:
     """Builds it from the world, the seed, and the sensors that are silent."""
     outline: Outline
     """What the judge measures clearance from."""
+    kind: Kind | None = None
+    """Of who drives in MuJoCo."""
     height_m: float = 1.98
     lidars: tuple[str, ...] = LIDARS
     """The names of its scanners ..."""
@@ -53,16 +56,29 @@ class Vehicle:
     devices: tuple[str, ...] = (*LIDARS, *RADARS, *OTHERS, "road_camera", *ACTUATORS)
     """What of it can fail."""
 
+    def begin(
+        self, world: World, seed: int, silent: frozenset[str], sensors: SensorParameters | None
+    ) -> Twin:
+        """The vehicle at the start, with its own sensors or with others."""
+        if sensors is None or self.kind is None:
+            return self.twin(world, seed, silent)
+        return Simulator(world, seed, silent, self.kind._replace(sensors=lambda: sensors))
+
 
 DUBINS = "dubins"
 """The point of section 6.5; its obstacles come raw, so the judge expands it to a disc."""
 _DISC = Outline(0.0, 0.0, 0.0, dubins_parameters().drive.disc_radius_m)
 
 VEHICLES = {
-    ION: Vehicle(Simulator, Outline()),
+    ION: Vehicle(Simulator, Outline(), RANGER),
     DUBINS: Vehicle(DubinsSimulator, _DISC, lidars=("lidar_field",), radars=(), devices=()),
     "pioneer": Vehicle(
-        pioneer.simulator, Outline(0.254, -0.254, 0.2485), 0.46, ("lidar_deck",), radars=(),
+        pioneer.simulator,
+        Outline(0.254, -0.254, 0.2485),
+        pioneer.PIONEER,
+        0.46,
+        ("lidar_deck",),
+        radars=(),
         devices=("lidar_deck", *OTHERS),
     ),
 }

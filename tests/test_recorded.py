@@ -64,3 +64,22 @@ def test_tape_of_somebody_else_is_refused(tmp_path):
     TapeWriter(log, metadata={"seed": "1"}).close()
     with pytest.raises(TapeError, match="does not say its scenario"):
         recorded(log)
+
+
+def test_a_drive_of_a_scenario_file_is_drawn_again_without_the_file(tmp_path):
+    path = tmp_path / "mine.toml"
+    path.write_text(
+        'title = "Mine."\ncourse = "sharp_turn"\ntime_limit_s = 1.0\n'
+        '[vary]\n"world.friction" = { uniform = [0.3, 0.4] }\n[verdicts]\noutcome = "timeout"\n'
+    )
+    job = Job(scenario_source(str(path)), tmp_path)
+    figures = job.drive(3)
+    assert figures["verdicts"][0]["passed"]
+    path.unlink()
+    again = recorded(figures["log"])
+    assert again.command == "ion drive mine.toml --seed 3"
+    episode = again.episode()
+    assert 0.3 < episode.course.world.friction < 0.4
+    while episode.outcome is None:
+        episode.tick()
+    assert episode.digest.hex() == figures["digest"]

@@ -29,12 +29,13 @@ def builder(package: str) -> Callable[[int], Course]:
 
     def build(seed: int) -> Course:
         """The course as `seed` draws it."""
-        return _course(package.rsplit(".", 1)[-1], load(package), seed)
+        return course_of(package.rsplit(".", 1)[-1], load(package), seed)
 
     return build
 
 
-def _course(name: str, trial: Trial, seed: int) -> Course:
+def course_of(name: str, trial: Trial, seed: int) -> Course:
+    """The course of a plan as `seed` draws it."""
     text = _rddf(trial)
     route = rddf.parse(text, f"{name}.rddf")
     ground = _ground(trial, seed)

@@ -70,7 +70,7 @@ class Waypoint(_Strict, frozen=True, array_like=True):
 
 
 class Trial(_Strict, frozen=True):
-    """The whole file."""
+    """The whole file, but for what every scenario has; see `scenarios.scenario_file`."""
 
     title: str
     course: str

@@ -1,0 +1,1 @@
+"""`ion scenarios`: which there are."""
