@@ -39,6 +39,7 @@ def _command() -> int:
     from ion.report.options import Options as ReportOptions
     from ion.route.options import Options as RouteOptions
     from ion.scenarios.options import Options as ScenariosOptions
+    from ion.suite.options import Options as SuiteOptions
     from ion.truth.options import Options as TruthOptions
     from ion.view.options import Options as ViewOptions
 
@@ -106,6 +107,13 @@ def _command() -> int:
         from ion.scenarios import command
 
         return command.scenarios(options)
+
+    @app.command
+    def suite(options: Annotated[SuiteOptions, tyro.conf.arg(name="")]) -> int:
+        """Drive many scenarios over many seeds, and judge them; or break the navigator, and see."""
+        from ion.suite import command
+
+        return command.suite(options)
 
     @app.command
     def truth(options: Annotated[TruthOptions, tyro.conf.arg(name="")]) -> int:

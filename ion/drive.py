@@ -9,7 +9,7 @@ from rich.console import Console
 
 from ion.job import Job
 from ion.options import Options, checkpoint_of, job_of, seeds_of
-from ion.telling import Bar, Result, as_json, line, summary, table
+from ion.telling import Bar, Result, as_asked, as_json, line, summary, table
 from scenarios.batch import many
 from scenarios.run import Watch
 
@@ -89,11 +89,4 @@ def _told(counts: dict[str, Any]) -> str:
 def _code(results: list[dict[str, Any]]) -> int:
     if any(result["outcome"] == "interrupted" for result in results):
         return INTERRUPTED
-    return FINISHED if all(map(_as_asked, results)) else NOT_FINISHED
-
-
-def _as_asked(result: Result) -> bool:
-    """Whether a drive is what its scenario's file asks of it; without one, whether it arrived."""
-    if "verdicts" in result:
-        return all(verdict["passed"] for verdict in result["verdicts"])
-    return result["outcome"] == "finished"
+    return FINISHED if all(map(as_asked, results)) else NOT_FINISHED

@@ -33,7 +33,7 @@ class Job:
     log: str = "full"
     ablate: tuple[str, ...] = ()
     failures_only: bool = False
-    """Whether tape and map of a drive that finished are not kept."""
+    """Whether tape and map of a drive that went as it should are not kept."""
 
     def drive(self, seed: int, watches: Sequence[Watch] = ()) -> dict[str, Any]:
         """Drive one seed to its end; returns its figures, and where tape (`log`) and `map` lie.
@@ -57,7 +57,7 @@ class Job:
             OSError: tape or map cannot be written.
         """
         from ion.recorded import EVENTS, FIGURES
-        from ion.telling import as_json
+        from ion.telling import as_asked, as_json
         from scenarios.events import as_rows
         from scenarios.true_states import TrueStates
 
@@ -70,7 +70,7 @@ class Job:
             figures = run(episode, writer, told) | behaviour.figures()
             figures |= {"scenario": self.source.title, "ablate": list(self.ablate)}
             figures |= self._verdicts(figures)
-            wanted = not self.failures_only or figures["outcome"] != "finished"
+            wanted = not self.failures_only or not as_asked(figures)
             if wanted:
                 writer.keep()
                 writer.attach(FIGURES, as_json(figures))
@@ -88,7 +88,7 @@ class Job:
 
     def drive_in_worker(self, seed: int) -> dict[str, Any]:
         """As `drive`, for `scenarios.batch`: stops when the user wants no more."""
-        return self.drive(seed, [_stop_when_asked])
+        return self.drive(seed, [stop_when_asked])
 
     def path(self, seed: int, suffix: str) -> Path:
         """Where a file of this drive lies."""
@@ -149,7 +149,8 @@ class Job:
         return str(path)
 
 
-def _stop_when_asked(episode: "Episode", records: object) -> None:
+def stop_when_asked(episode: "Episode", records: object) -> None:
+    """A watch, for who drives in a worker of `scenarios.batch`."""
     del episode, records  # Unused.
     if stop_asked():
         raise KeyboardInterrupt

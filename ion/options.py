@@ -1,6 +1,5 @@
 """The arguments of `ion drive`, as typed; and what they mean, checked."""
 
-import re
 from dataclasses import dataclass, replace
 from pathlib import Path
 from tempfile import TemporaryFile
@@ -12,13 +11,13 @@ from ion.courses import Source, route_source, scenario_names, scenario_source
 from ion.errors import UsageError
 from ion.job import Job
 from ion.view.options import LOCAL
+from scenarios import seeds
 from scenarios.scenario import FLAGS
 
 if TYPE_CHECKING:
     from ion.segments import Checkpoint
 
 Log = Literal["full", "inputs", "light", "off"]
-MAX_SEED = 2**32 - 1
 SCENARIO_OPTIONS = ("field", "density", "first", "last")
 """Options that only some scenarios take: those of their `scenario.toml`."""
 
@@ -126,14 +125,10 @@ def listed(text: str, what: str) -> list[int]:
     Raises:
         UsageError: it is none.
     """
-    found: dict[int, None] = {}
-    for part in text.split(","):
-        match = re.fullmatch(r"\s*(\d{1,10})(?:-(\d{1,10}))?\s*", part)
-        low, high = (int(match[1]), int(match[2] or match[1])) if match else (1, 0)
-        if not low <= high <= MAX_SEED:
-            raise UsageError(f"{what} {part!r}: expected whole numbers such as 7, 0-19 or 1,4,7-9")
-        found |= dict.fromkeys(range(low, high + 1))
-    return list(found)
+    try:
+        return seeds.listed(text)
+    except ValueError as error:
+        raise UsageError(f"{what} {error}") from error
 
 
 def _source(options: Options) -> Source:

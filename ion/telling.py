@@ -69,6 +69,13 @@ def as_json(result: Result | list[Result]) -> str:
     return json.dumps(_rounded(result), allow_nan=False)
 
 
+def as_asked(result: Result) -> bool:
+    """Whether a drive is what its scenario's file asks of it; without one, whether it arrived."""
+    if "verdicts" in result:
+        return all(verdict["passed"] for verdict in result["verdicts"])
+    return result["outcome"] == "finished"
+
+
 def summary(results: Sequence[Result], wall_time_s: float) -> Result:
     """The counts over many results."""
     outcomes = Counter(result["outcome"] for result in results)
@@ -126,7 +133,7 @@ def rows(r: Result) -> list[tuple[str, str]]:
         ("waypoints", f"{r['waypoints_passed']} of {r['waypoints_total']}"),
         ("states", states),
         ("digest", r["digest"]),
-        *((f"verdict on {v['figure']}", _verdict(v)) for v in r.get("verdicts", ())),
+        *((f"verdict on {v['figure']}", verdict(v)) for v in r.get("verdicts", ())),
         *(
             (name, r[key] or "not kept")
             for name, key in (("tape", "log"), ("map", "map"))
@@ -140,7 +147,8 @@ def way(distance_m: float) -> str:
     return f"{distance_m:.0f} m" if distance_m < SHORT_M else f"{distance_m / MILE_M:.2f} miles"
 
 
-def _verdict(v: Result) -> str:
+def verdict(v: Result) -> str:
+    """Whether a figure is as it must be, for people."""
     value = f"{v['value']:.4g}" if isinstance(v["value"], float) else v["value"]
     found = "not measured" if v["value"] is None else value
     return f"{'passed' if v['passed'] else 'FAILED'}: {found}, expected {v['expected']}"

@@ -34,7 +34,7 @@ from scenarios.failing import failing
 from scenarios.figure_names import check_figure
 from scenarios.scenario import check_options, load_scenario, scenario_names
 from scenarios.settings import begin, check
-from scenarios.toml_place import PlacedError, place, split
+from scenarios.toml_place import PlacedError, converted, place
 from scenarios.trial.course import course_of
 from scenarios.trial.plan import Trial
 from scenarios.vehicles import VEHICLES
@@ -169,8 +169,7 @@ def read_scenario(path: Path) -> ScenarioFile:
     """
     text = _text(path)
     try:
-        scenario = _converted(path, tomllib.loads(text))
-        _check(scenario)
+        scenario = checked(_converted(path, tomllib.loads(text)))
     except tomllib.TOMLDecodeError as error:
         raise ScenarioFileError(f"{path}: not TOML: {error}") from error
     except PlacedError as error:
@@ -182,14 +181,14 @@ def _converted(path: Path, table: dict[str, Any]) -> ScenarioFile:
     """Of a trial, what belongs to every scenario apart from what belongs to its course."""
     for key, kind in (("vary", Varied), ("verdicts", Expected)):
         for name, value in _table(table, key).items():
-            _convert(value, kind, (key, name))
+            converted(value, kind, (key, name))
     if table.get("course") != TRIAL:
-        said = _convert(table, Said, ())
+        said = converted(table, Said, ())
         text = _route(path.parent / said.route) if said.route else ""
         return _named(path.stem, said, route_text=text)
     rest = {k: v for k, v in table.items() if k not in COMMON or k in ALSO_TRIAL}
-    trial = _convert(rest, Trial, ())
-    said = _convert({k: v for k, v in table.items() if k in COMMON}, Said, ())
+    trial = converted(rest, Trial, ())
+    said = converted({k: v for k, v in table.items() if k in COMMON}, Said, ())
     return _named(path.stem, said, trial=trial)
 
 
@@ -204,15 +203,6 @@ def _table(table: dict[str, Any], key: str) -> dict[str, Any]:
     return inner
 
 
-def _convert(value: Any, kind: Any, path: tuple[str, ...]) -> Any:
-    """As msgspec's, with the whole path in what it raises."""
-    try:
-        return msgspec.convert(value, kind)
-    except msgspec.ValidationError as error:
-        inner, what = split(error, kind)
-        raise PlacedError((*path, *inner), what) from error
-
-
 def _route(path: Path) -> str:
     try:
         return _text(path)
@@ -220,11 +210,11 @@ def _route(path: Path) -> str:
         raise PlacedError(("route",), str(error)) from error
 
 
-def _check(scenario: ScenarioFile) -> None:
-    """What a type cannot say.
+def checked(scenario: ScenarioFile) -> ScenarioFile:
+    """The scenario itself, if it can be driven and judged: what a type cannot say.
 
     Raises:
-        PlacedError: says it.
+        PlacedError: it cannot; says which key is wrong.
     """
     if bool(scenario.course) == bool(scenario.route):
         raise PlacedError(
@@ -241,6 +231,7 @@ def _check(scenario: ScenarioFile) -> None:
             _try(("vary", name), lambda n=name, v=value: check(n, v, vehicle))
     silent = VEHICLES[vehicle]
     _try(("ablate",), lambda: disabled_sensors(scenario.ablate, silent.lidars, silent.radars))
+    return scenario
 
 
 def _course(scenario: ScenarioFile) -> Course:

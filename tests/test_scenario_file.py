@@ -213,7 +213,7 @@ def test_each_setting_may_have_the_value_that_it_has():
 
 def test_a_place_in_a_file_is_found_however_it_is_written():
     text = 'a = 1\n[b]\n"c.d" = { e = 1 }\nf.g = 2\n[[h]]\ni = 3\n'
-    found = [line_of(text, p) for p in (["b", "c.d", "e"], ["b", "f", "g"], ["h", "i"], ["z"])]
+    found = [line_of(text, p) for p in (["b", "c.d", "e"], ["b", "f", "g"], ["h", 0, "i"], ["z"])]
     assert found == [3, 4, 6, None]
 
 

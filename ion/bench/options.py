@@ -7,7 +7,7 @@ from tyro.conf import Positional, arg
 
 from ion.courses import scenario_source
 from ion.errors import UsageError
-from ion.options import MAX_SEED
+from scenarios.seeds import MAX_SEED
 
 if TYPE_CHECKING:
     from scenarios.course import Course

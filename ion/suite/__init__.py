@@ -1,0 +1,1 @@
+"""`ion suite`: many drives, judged by their verdicts."""
