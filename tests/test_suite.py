@@ -4,9 +4,11 @@ import json
 from pathlib import Path
 from xml.etree import ElementTree
 
+import numpy as np
 import pytest
 from test_cli import ion, refused
 
+from ion.suite.baseline import changes
 from ion.suite.cases import Case, cases_of
 from ion.suite.mutants import Drives, verdict_of
 from ion.suite.results import Results
@@ -151,3 +153,56 @@ def test_wrong_arguments(tmp_path, monkeypatch, capsys):
     assert "--jobs 0" in refused(monkeypatch, capsys, "suite", path, "--jobs", 0)
     assert "--seeds 'x'" in refused(monkeypatch, capsys, "suite", path, "--seeds", "x")
     assert "--junit" in refused(monkeypatch, capsys, "suite", path, "--junit", "/no/where.xml")
+
+
+def result(case, passed=True, **figures):
+    verdicts = [{"figure": "contacts", "passed": passed, "value": 0, "expected": "0"}]
+    return {"case": case, "verdicts": verdicts, "failed": [] if passed else ["contacts"], **figures}
+
+
+def test_a_baseline_tells_verdicts_that_turned_and_figures_that_moved_beyond_chance():
+    rng = np.random.default_rng(0)
+    then = {f"a {k}": result(f"a {k}", v=float(k), noise=float(rng.normal())) for k in range(10)}
+    now = [result(f"a {k}", k != 3, v=k + 0.1, noise=float(rng.normal())) for k in range(10)]
+    found = changes(now, then)
+    assert [(v.case, v.figure) for v in found.regressions] == [("a 3", "contacts")]
+    assert [(f.run, f.figure, f.seeds) for f in found.moved] == [("a", "v", 10)]
+    assert found.moved[0].low == pytest.approx(0.1)
+    back = changes(list(then.values()), {r["case"]: r for r in now})
+    assert not back.regressions
+    assert len(back.turned) == 1
+    assert changes(list(then.values()), then) == ([], [], [])
+
+
+def test_few_seeds_say_nothing_of_figures():
+    then = {f"a {k}": result(f"a {k}", v=0.0) for k in range(3)}
+    assert changes([result(f"a {k}", v=1.0) for k in range(3)], then).moved == []
+
+
+def test_against_a_baseline_only_what_got_worse_fails(tmp_path, monkeypatch, capsys):
+    words = ("suite", written(tmp_path), "--out", tmp_path / "out")
+    assert ion(monkeypatch, capsys, *words)[0] == 1
+    baseline = tmp_path / "baseline.jsonl"
+    kept = tmp_path / "out" / "mine" / "results.jsonl"
+    baseline.write_text(kept.read_text())
+    code, out, _ = ion(monkeypatch, capsys, *words, "--baseline", baseline, "--json")
+    assert code == 0
+    assert lines(out)[-1]["other_digests"] == []
+    failed, passed = ('"figure": "outcome", "passed": ' + word for word in ("false", "true"))
+    better = baseline.read_text().replace(failed, passed)
+    baseline.write_text(better)
+    code, out, _ = ion(monkeypatch, capsys, *words, "--baseline", baseline)
+    assert code == 1
+    assert "FAILS NOW  hopeless 0: outcome" in out
+    page = (tmp_path / "out" / "mine" / "report.html").read_text()
+    assert "hopeless_seed0.mcap" in page
+    assert "--run hopeless --seeds 0" in page
+    baseline.write_text("no results\n")
+    assert "--baseline" in refused(monkeypatch, capsys, *words, "--baseline", baseline)
+
+
+def test_one_run_alone(tmp_path, monkeypatch, capsys):
+    words = ("suite", written(tmp_path), "--out", tmp_path, "--json", "--run", "hopeless")
+    *drives, _ = lines(ion(monkeypatch, capsys, *words)[1])
+    assert [drive["case"] for drive in drives] == ["hopeless 0"]
+    assert "hopeless" in refused(monkeypatch, capsys, *words[:-1], "hope")

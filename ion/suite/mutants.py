@@ -16,6 +16,7 @@ from rich.progress import track
 
 from ion.job import stop_when_asked
 from ion.suite.cases import Case
+from ion.suite.options import Options
 from ion.suite.results import Results, failed
 from ion.telling import as_json
 from scenarios.batch import many, stop_asked
@@ -83,16 +84,16 @@ class Hunt:
             file.write(as_json({**catch, "holds": self.holds}) + "\n")
 
 
-def told_of(hunt: Hunt, jobs: int) -> Catch:
+def caught_by(hunt: Hunt, options: Options) -> Catch:
     """Let those drive of whom nothing is known; who was caught by what."""
     due = [k for k, name in enumerate(MUTANTS) if name not in hunt.known]
     if due:
-        drives = many(hunt.drives, due, jobs)
+        drives = many(hunt.drives, due, options.jobs)
         for catch in track(drives, "mutants", total=len(due), console=Console(stderr=True)):
             hunt.add(catch)
-    caught_by = {name: hunt.known.get(name) for name in MUTANTS}
-    caught = len([by for by in caught_by.values() if by])
-    return {"mutants": len(MUTANTS), "caught": caught, "caught_by": caught_by}
+    known = {name: hunt.known.get(name) for name in MUTANTS}
+    caught = len([by for by in known.values() if by])
+    return {"mutants": len(MUTANTS), "caught": caught, "caught_by": known}
 
 
 def verdict_of(case: Case, figure: str) -> str:

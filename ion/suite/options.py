@@ -4,7 +4,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
-from tyro.conf import Positional, arg
+from tyro.conf import Positional, UseAppendAction, arg
 
 from ion.errors import UsageError
 from ion.options import Log, check_folder, listed
@@ -21,13 +21,20 @@ class Options:
     """Name of a suite, such as smoke, or the path of its file."""
     seeds: Annotated[str | None, arg(metavar="N-M")] = None
     """Instead of those that the suite names, for each of its runs."""
+    run: Annotated[UseAppendAction[tuple[str, ...]], arg(metavar="NAME")] = ()
+    """Only this run of the suite. May be said more than once."""
     jobs: Annotated[int, arg(metavar="N")] = 1
     """How many episodes at a time, one process each."""
     out: Annotated[Path, arg(metavar="FOLDER")] = Path("runs")
     """Results go into a folder there that has the suite's name. What stands in it and still holds
     is not driven again: a suite that was stopped goes on."""
+    cluster: Annotated[str | None, arg(metavar="ADDRESS")] = None
+    """Drive on the workers of a Dask cluster, such as tcp://127.0.0.1:8786, instead of here."""
     log: Annotated[Log, arg(metavar="full|inputs|light|off")] = "inputs"
     """What goes on the tapes of drives that fail; the others are not kept."""
+    baseline: Annotated[Path | None, arg(metavar="FILE")] = None
+    """Compare with the results of an earlier time: say which verdicts and figures moved; only what
+    passed then and fails now makes the suite fail."""
     mutants: bool = False
     """Then let broken navigators drive it, and say which verdict catches each."""
     junit: Annotated[Path | None, arg(metavar="FILE")] = None
@@ -44,6 +51,8 @@ def suite_of(options: Options) -> "Suite":
     """
     from scenarios.suites import SuiteError, read_suite
 
+    if options.mutants and options.cluster:
+        raise UsageError("--mutants: expected no --cluster beside it: they are driven here")
     if options.jobs < 1:
         raise UsageError(f"--jobs {options.jobs}: expected 1 or more")
     try:
@@ -51,8 +60,15 @@ def suite_of(options: Options) -> "Suite":
     except SuiteError as error:
         raise UsageError(str(error)) from error
     check_folder(options.out / suite.name)
+    if options.baseline is not None and not options.baseline.is_file():
+        raise UsageError(f"--baseline {options.baseline}: expected a file such as results.jsonl")
     if options.junit is not None and not options.junit.parent.is_dir():
         raise UsageError(f"--junit {options.junit}: expected a file in a folder that exists")
+    runs = {run.scenario.name: run for run in suite.runs}
+    if unknown := [name for name in options.run if name not in runs]:
+        raise UsageError(f"--run {unknown[0]}: unknown; there are {', '.join(runs)}")
+    if options.run:
+        suite = suite._replace(runs=tuple(runs[name] for name in dict.fromkeys(options.run)))
     if options.seeds is None:
         return suite
     seeds = tuple(listed(options.seeds, "--seeds"))
