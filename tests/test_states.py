@@ -7,6 +7,7 @@ import pytest
 
 from nav.messages import EgoEstimate
 from nav.parameters import parameters_from
+from nav.planning.arcs import curvature_back
 from nav.planning.boundaries import TOUCH
 from nav.planning.curve import sampled
 from nav.planning.local_path import clear_distances
@@ -175,3 +176,9 @@ def test_who_cannot_roll_back_any_farther_operates_again():
     for k in range(20):
         memory.trail.record((0.5 * k - 9.5, 0.0, 0.0), P.states.rollback.longest_m)
     assert room_again(situation(), memory, P) == ""
+
+
+def test_a_place_that_the_vehicle_stands_on_lies_on_no_circle():
+    assert curvature_back(0.0, 0.0, 4.0) == 0.0
+    assert curvature_back(-2.0, 2.0, 1.0) == 0.5
+    assert curvature_back(-2.0, -2.0, 4.0) == -0.25

@@ -64,5 +64,6 @@ def curvature_back(forward_m: float, left_m: float, radius_m: float) -> float:
 
     Pure pursuit (Coulter 1992), which holds for places behind as well; limited to `radius_m`.
     """
-    curvature = 2.0 * left_m / (forward_m * forward_m + left_m * left_m)
+    squared = forward_m * forward_m + left_m * left_m
+    curvature = 2.0 * left_m / squared if squared > 0.0 else 0.0  # it is there already
     return min(max(curvature, -1.0 / radius_m), 1.0 / radius_m)
