@@ -89,7 +89,7 @@ class Source:
 
     def _course(self, seed: int) -> "Course":
         if self.file:
-            return self.file.course_of(seed)
+            return self.file.drawn_course(seed)
         if self.scenario:
             course = import_module(f"scenarios.{self.scenario}.course")
             return course.build(seed, **dict(self.options))

@@ -103,7 +103,7 @@ class ScenarioFile(Said, frozen=True):
         """What varies, as a seed has it."""
         return {name: draw(name, varied, seed) for name, varied in self.vary.items()}
 
-    def course_of(self, seed: int) -> Course:
+    def drawn_course(self, seed: int) -> Course:
         """The course as a seed draws it.
 
         Raises:
@@ -129,7 +129,7 @@ class ScenarioFile(Said, frozen=True):
         Raises:
             NavError: a route or parameters that the navigator refuses.
         """
-        return begin(self.course_of(seed), seed, self.ablate, self.drawn(seed), parameters)
+        return begin(self.drawn_course(seed), seed, self.ablate, self.drawn(seed), parameters)
 
     def judged(self, figures: Mapping[str, Any]) -> list[Verdict]:
         """The verdicts on a drive's figures."""
@@ -237,7 +237,7 @@ def checked(scenario: ScenarioFile) -> ScenarioFile:
 def _course(scenario: ScenarioFile) -> Course:
     if scenario.course and scenario.course != TRIAL:
         _try(("options",), lambda: check_options(scenario.course, scenario.options))
-    return scenario.course_of(0)
+    return scenario.drawn_course(0)
 
 
 def _try(path: tuple[str, ...], do: Callable[[], T]) -> T:

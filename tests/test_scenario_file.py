@@ -70,7 +70,7 @@ def test_seeds_draw_what_varies_each_by_itself(tmp_path):
 
 def test_sensors_can_be_others(tmp_path):
     noisy = {"sensors.lidar.noise_sd_m": 0.3}
-    course = read(tmp_path).course_of(0)
+    course = read(tmp_path).drawn_course(0)
     simulator = begin(course, 0, (), noisy).simulator
     assert isinstance(simulator, Simulator)
     as_it_is, other = (begin(course, 0, (), values) for values in ({}, noisy))
@@ -81,7 +81,7 @@ def test_sensors_can_be_others(tmp_path):
 
 
 def test_without_changes_an_episode_is_the_same(tmp_path):
-    course = read(tmp_path).course_of(0)
+    course = read(tmp_path).drawn_course(0)
     one, two = begin(course, 0), Episode(course, 0)
     for _ in range(5):
         one.tick()
@@ -100,7 +100,7 @@ def test_a_route_lies_beside_it(tmp_path):
     )
     scenario = read(tmp_path, 'title = "Mine."\nroute = "desert.rddf"\nfrom = 2\nto = 3\n')
     (tmp_path / "desert.rddf").unlink()
-    assert len(from_json(scenario.as_json()).course_of(0).waypoint_m) == 2
+    assert len(from_json(scenario.as_json()).drawn_course(0).waypoint_m) == 2
 
 
 @pytest.mark.parametrize("name", sorted({*scenario_names()} - {"gc05_route", "small_robot"}))
@@ -120,7 +120,7 @@ things = [{ kind = "tires", at_m = [30, 1.5], half_m = [0.3, 0.3] }]
 [verdicts]
 contacts = 0
 """
-    course = read(tmp_path, text).course_of(0)
+    course = read(tmp_path, text).drawn_course(0)
     assert [o.kind for o in course.world.obstacles] == ["tires"]
     assert course.name == "mine"
     refused(tmp_path, text.replace("half_m", "halb_m"), "line 5: things.halb_m", "half_m")
@@ -219,5 +219,5 @@ def test_a_place_in_a_file_is_found_however_it_is_written():
 
 def test_faults_may_be_more(tmp_path):
     more = read(tmp_path).failing(["gps silent 30s"], ["no-radar"])
-    assert len(more.course_of(0).world.faults) == 3
+    assert len(more.drawn_course(0).world.faults) == 3
     assert more.ablate == ("no-radar",)
