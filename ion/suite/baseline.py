@@ -12,7 +12,8 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from ion.errors import UsageError
-from ion.suite.results import Result
+from ion.suite.results import run_of
+from ion.telling import Result
 
 LEAST_SEEDS = 5
 """Fewer say nothing of others."""
@@ -94,9 +95,9 @@ def _turned(then: Result, now: Result) -> Iterator[Turned]:
 
 
 def _moved(pairs: Sequence[tuple[Result, Result]]) -> Iterator[Moved]:
-    runs = dict.fromkeys(_run(now) for _, now in pairs)
+    runs = dict.fromkeys(run_of(now) for _, now in pairs)
     for run in runs:
-        of_run = [(then, now) for then, now in pairs if _run(now) == run]
+        of_run = [(then, now) for then, now in pairs if run_of(now) == run]
         for figure in of_run[0][1]:
             values = [(then.get(figure), now[figure]) for then, now in of_run if figure in now]
             numbers = np.array([pair for pair in values if all(map(_number, pair))], dtype=float)
@@ -113,10 +114,6 @@ def _beyond_chance(run: str, figure: str, pairs: Any) -> Iterator[Moved]:
     if low > 0.0 or high < 0.0:
         then, now = pairs.mean(axis=0).tolist()
         yield Moved(run, figure, len(pairs), then, now, low, high)
-
-
-def _run(result: Result) -> str:
-    return result["case"].rsplit(" ", 1)[0]
 
 
 def _number(value: Any) -> bool:

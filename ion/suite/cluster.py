@@ -13,9 +13,8 @@ from typing import Any
 from ion.errors import UsageError
 from ion.suite.cases import Work, code
 from ion.suite.remote import drive_apart
+from ion.telling import Result
 from scenarios.interrupts import interrupts
-
-Result = dict[str, Any]
 
 CONNECT_S = "10s"
 ATTEMPTS = 5

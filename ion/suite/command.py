@@ -16,8 +16,8 @@ from ion.suite.cluster import connected, on_cluster
 from ion.suite.mutants import Hunt, caught_by
 from ion.suite.options import Options, suite_of
 from ion.suite.page import write_page
-from ion.suite.results import Result, Results
-from ion.telling import as_json, verdict
+from ion.suite.results import Results, reasons
+from ion.telling import Result, as_json
 from scenarios.batch import many
 from scenarios.suites import Suite
 
@@ -117,10 +117,7 @@ def line(result: Result) -> str:
     """One drive, for people."""
     if not result["failed"]:
         return f"passed  {result['case']}"
-    broken = [verdict(v) for v in result.get("verdicts", ()) if not v["passed"]]
-    named = [f"{name}: {why}" for name, why in zip(result["failed"], broken, strict=False)]
-    why = "; ".join(named) or result.get("message", result["outcome"])
-    return f"FAILED  {result['case']}: {why}  {result.get('log') or ''}"
+    return f"FAILED  {result['case']}: {'; '.join(reasons(result))}  {result.get('log') or ''}"
 
 
 def _words(told: Result, moved: Changes | None, page: Path) -> str:

@@ -4,8 +4,7 @@ from collections.abc import Sequence
 from pathlib import Path
 from xml.etree.ElementTree import Element, ElementTree, SubElement, indent
 
-from ion.suite.results import Result
-from ion.telling import verdict
+from ion.telling import Result, verdict
 
 
 def write(path: Path, suite: str, results: Sequence[Result]) -> None:

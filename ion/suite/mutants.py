@@ -3,7 +3,6 @@
 A verdict that also fails the healthy navigator, with any seed, catches nobody.
 """
 
-import json
 from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property
@@ -17,7 +16,7 @@ from rich.progress import track
 from ion.job import stop_when_asked
 from ion.suite.cases import Case
 from ion.suite.options import Options
-from ion.suite.results import Results, failed
+from ion.suite.results import Results, failed, rows_of
 from ion.telling import as_json
 from scenarios.batch import many, stop_asked
 from scenarios.behaviour import Behaviour
@@ -65,15 +64,14 @@ class Hunt:
         self.path = folder / FILE
         unfit = {verdict_of(cases[k], f) for k, r in healthy.found.items() for f in r["failed"]}
         self.drives = Drives(cases, frozenset(unfit))
-        said = code + "".join(case.scenario.as_json() + str(case.seed) for case in cases)
+        said = "".join(case.holds_for(code) for case in cases)
         self.holds = sha256(said.encode()).hexdigest()[:16]
 
     @cached_property
     def known(self) -> dict[str, Any]:
         """By mutant: what caught it, or None."""
-        lines = self.path.read_text(encoding="utf-8").splitlines() if self.path.exists() else []
-        read = [json.loads(line) for line in lines if line.endswith("}")]
-        return {r["mutant"]: r["by"] for r in read if r["holds"] == self.holds}
+        rows = rows_of(self.path)
+        return {row["mutant"]: row["by"] for row in rows if row.get("holds") == self.holds}
 
     def add(self, catch: Catch) -> None:
         """Keep what a hunt gave."""

@@ -10,8 +10,8 @@ from string import Template
 from ion.style import DECIDED, GRID, INK, PAPER, PASSED, QUIET
 from ion.suite.baseline import Changes
 from ion.suite.plots import strips
-from ion.suite.results import Result
-from ion.telling import verdict
+from ion.suite.results import reasons, run_of
+from ion.telling import Result
 from scenarios.suites import Run, Suite
 
 FILE = "report.html"
@@ -75,9 +75,7 @@ def _failures(folder: Path, failed: Sequence[Result]) -> str:
 
 
 def _failure(folder: Path, result: Result) -> str:
-    broken = [v for v in result.get("verdicts", ()) if not v["passed"]]
-    why = "<br>".join(escape(f"{v['figure']}: {verdict(v)}") for v in broken)
-    why = why or escape(result.get("message", result["outcome"]))
+    why = "<br>".join(map(escape, reasons(result)))
     left = [result[key] for key in ("log", "map") if result.get(key)]
     links = "<br>".join(f'<a href="{escape(relpath(p, folder))}">{Path(p).name}</a>' for p in left)
     again = f"<code>{escape(result['command'])}</code>"
@@ -87,7 +85,7 @@ def _failure(folder: Path, result: Result) -> str:
 def _run(run: Run, results: Sequence[Result]) -> str:
     """One scenario: how many passed each verdict, and where the figures lie."""
     scenario = run.scenario
-    mine = [r for r in results if r["case"].rsplit(" ", 1)[0] == scenario.name]
+    mine = [r for r in results if run_of(r) == scenario.name]
     verdicts = [verdict for result in mine for verdict in result.get("verdicts", ())]
     rows = "".join(_row(figure, verdicts) for figure in scenario.verdicts)
     head = f"<h2>{escape(scenario.name)}</h2><p>{escape(scenario.title)}</p>"

@@ -5,7 +5,7 @@ from collections.abc import Sequence
 from matplotlib.axes import Axes
 
 from ion.style import DECIDED, HARD, INK, PASSED, new_figure, plain, png
-from ion.suite.results import Result
+from ion.telling import Result
 from scenarios.bounds import Bound, Expected
 
 ACROSS, WIDTH_IN, HEIGHT_IN = 4, 2.7, 1.5

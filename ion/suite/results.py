@@ -6,9 +6,7 @@ from pathlib import Path
 from typing import Any
 
 from ion.suite.cases import Case
-from ion.telling import as_json
-
-Result = dict[str, Any]
+from ion.telling import Result, as_json, verdict
 
 FILE = "results.jsonl"
 
@@ -46,11 +44,27 @@ class Results:
         return result
 
     def _read(self) -> dict[int, Result]:
-        """The last line may be cut."""
         number = {holds: k for k, holds in enumerate(self._holds)}
-        lines = self.path.read_text(encoding="utf-8").splitlines() if self.path.exists() else []
-        read = [result for result in map(_parsed, lines) if result.get("holds") in number]
+        read = [result for result in rows_of(self.path) if result.get("holds") in number]
         return {number[result["holds"]]: result for result in read if _kept(result)}
+
+
+def rows_of(path: Path) -> list[Result]:
+    """The lines of a file that is written as drives end; the last may be cut, and is then empty."""
+    lines = path.read_text(encoding="utf-8").splitlines() if path.exists() else []
+    return [_parsed(line) for line in lines]
+
+
+def run_of(result: Result) -> str:
+    """The name of its run."""
+    return result["case"].rsplit(" ", 1)[0]
+
+
+def reasons(result: Result) -> list[str]:
+    """Why a drive failed: its failed verdicts, or what broke it."""
+    broken = [v for v in result.get("verdicts", ()) if not v["passed"]]
+    told = [f"{v['figure']}: {verdict(v)}" for v in broken]
+    return told or [result.get("message", result["outcome"])]
 
 
 def failed(driven: Mapping[str, Any]) -> list[str]:
