@@ -25,10 +25,15 @@ class Bound(msgspec.Struct, forbid_unknown_fields=True, frozen=True):
 
     def holds(self, value: Any) -> bool:
         """Of a figure that was measured."""
-        if isinstance(value, list):
-            return all(w in value for w in self.has) and not any(w in value for w in self.lacks)
+        if self.has or self.lacks or isinstance(value, list):
+            return self.least is None and self.most is None and self._names(value)
         enough = self.least is None or value >= self.least
         return enough and (self.most is None or value <= self.most)
+
+    def _names(self, value: Any) -> bool:
+        if not isinstance(value, list):
+            return False
+        return all(word in value for word in self.has) and not any(w in value for w in self.lacks)
 
     def __str__(self) -> str:
         said = (("at least", self.least), ("at most", self.most))

@@ -192,6 +192,9 @@ def test_verdicts():
     assert not passes("words", Bound(has=("c",)))
     assert not passes("words", Bound(lacks=("a",)))
     assert not passes("none", Bound(least=0.0))
+    assert not passes("v", Bound(has=("a",)))
+    assert not passes("v", Bound(lacks=("a",)))
+    assert not passes("words", Bound(least=0.0))
     assert passes("states.alarm", Bound(most=3.0))
     assert passes("states.rollback", 0.0)
 
