@@ -8,7 +8,7 @@ import pytest
 from nav.messages import EgoEstimate
 from nav.parameters import parameters_from
 from nav.planning.arcs import curvature_back
-from nav.planning.boundaries import TOUCH
+from nav.planning.boundaries import REAL, TOUCH
 from nav.planning.curve import sampled
 from nav.planning.local_path import clear_distances
 from nav.planning.scanning import Boundaries
@@ -74,6 +74,19 @@ def test_wall_across_stops_the_vehicle():
     m = Machine(P)
     plan = m.decide(situation((2.6, 4.0, -30.0, 30.0)))
     assert plan.speed_mps == 0.0
+
+
+def test_who_strays_deep_into_the_real_boundary_is_led_out_of_it():
+    s = situation()
+    level = np.where(s.boundaries.level < TOUCH, REAL, TOUCH).astype(np.uint8)
+    boundaries = Boundaries(level, s.boundaries.origin_m, s.boundaries.cell_m)
+    inside = clear_distances(s.route_ahead, boundaries, P.planning.footprint)
+    s = replace(s, boundaries=boundaries, route_clear=inside, goal_rad=0.4)
+    plan = Machine(P).decide(s)
+    assert plan.speed_mps > 1.0
+    path = plan.command.pathpoint_m
+    assert path[-1, 0] == pytest.approx(P.planning.local_path.answer_s * 3.0, rel=0.05)
+    assert path[-1, 1] > 0.1
 
 
 @pytest.mark.parametrize(

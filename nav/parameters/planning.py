@@ -53,7 +53,9 @@ class LocalPathParameters:
     look_ahead_m: float
     """The route is looked at this far ahead."""
     shortest_m: float
-    """A path is at least this long, however near the obstacle."""
+    """A path is at least this long, however near the obstacle ..."""
+    answer_s: float
+    """... and where the outline has room, this long in time: until the steering has answered."""
     horizon_s: float
     min_length_m: float
     max_length_m: float

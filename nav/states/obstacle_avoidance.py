@@ -80,10 +80,12 @@ def consider(s: Situation, memory: Memory, p: Parameters) -> Considered:
 
 
 def _pathpoints(s: Situation, found: Considered, p: Parameters) -> Floats:
-    """Along the decided curve, as far as it is free."""
-    free_m = float(found.distances.real_m[found.row])
-    local = p.planning.local_path
-    length = max(min(path_length(s.ego.speed_mps, local), free_m), local.shortest_m)
+    """Along the decided curve, as far as it is free; and in any case on to where the steering has
+    answered, or who strays into the real boundary would be led straight on into the obstacle."""
+    local, speed = p.planning.local_path, s.ego.speed_mps
+    _, real_m, touch_m = (float(each[found.row]) for each in found.distances)
+    answered_m = max(min(local.answer_s * speed, touch_m), local.shortest_m)
+    length = max(min(path_length(speed, local), real_m), answered_m)
     return pathpoints(towards(found.curves, found.row, *s.pose), length)
 
 
