@@ -1,13 +1,11 @@
 """The page of a suite: what failed and how to drive it again, and every bound over all seeds."""
 
-from base64 import b64encode
 from collections.abc import Sequence
 from html import escape
 from os.path import relpath
 from pathlib import Path
-from string import Template
 
-from ion.style import DECIDED, GRID, INK, PAPER, PASSED, QUIET
+from ion.html import document, image, mood, paragraph
 from ion.suite.baseline import Changes
 from ion.suite.plots import strips
 from ion.suite.results import reasons, run_of
@@ -15,36 +13,6 @@ from ion.telling import Result
 from scenarios.suites import Run, Suite
 
 FILE = "report.html"
-PAGE = Template("""<!doctype html>
-<html lang="en">
-<head>
-<meta charset="utf-8">
-<meta name="viewport" content="width=device-width, initial-scale=1">
-<title>$title</title>
-<style>
-body { background: $paper; color: $ink; font: 16px/1.5 sans-serif; margin: 2rem auto;
-  max-width: 72rem; padding: 0 1rem; }
-h1 { font-size: 1.5rem; margin: 0; }
-h2 { font-size: 1.15rem; margin: 2.5rem 0 .5rem; }
-img { display: block; max-width: 100%; }
-table { border-collapse: collapse; }
-td { border-top: 1px solid $grid; padding: .15rem 1.5rem .15rem 0; vertical-align: top;
-  overflow-wrap: anywhere; }
-code { background: $grid; padding: .1rem .4rem; }
-.good { color: $good; } .bad { color: $bad; font-weight: bold; }
-.quiet { color: $quiet; }
-</style>
-</head>
-<body>
-<h1>$name</h1>
-<p>$title</p>
-<p class="$mood">$told</p>
-$changes
-$failures
-$runs
-</body>
-</html>
-""")
 
 
 def write_page(
@@ -56,15 +24,11 @@ def write_page(
         OSError: it cannot be written.
     """
     path, failed = folder / FILE, [result for result in results if result["failed"]]
-    colors = {"paper": PAPER, "ink": INK, "quiet": QUIET, "grid": GRID}
-    text = PAGE.substitute(
-        colors, good=PASSED, bad=DECIDED, name=escape(suite.name), title=escape(suite.title),
-        mood="bad" if failed else "good",
-        told=f"{len(results) - len(failed)} of {len(results)} drives passed",
-        changes=_changes(changes) if changes else "",
-        failures=_failures(folder, failed), runs="".join(_run(run, results) for run in suite.runs),
-    )  # fmt: skip
-    path.write_text(text, encoding="utf-8")
+    told = f"{len(results) - len(failed)} of {len(results)} drives passed"
+    parts = [paragraph(suite.title), paragraph(told, mood(not failed))]
+    parts += [_changes(changes)] if changes else []
+    parts += [_failures(folder, failed), *(_run(run, results) for run in suite.runs)]
+    path.write_text(document(suite.name, "\n".join(parts)), encoding="utf-8")
     return path
 
 
@@ -89,28 +53,22 @@ def _run(run: Run, results: Sequence[Result]) -> str:
     verdicts = [verdict for result in mine for verdict in result.get("verdicts", ())]
     rows = "".join(_row(figure, verdicts) for figure in scenario.verdicts)
     head = f"<h2>{escape(scenario.name)}</h2><p>{escape(scenario.title)}</p>"
-    return f"{head}<table>{rows}</table>{_image(strips(mine, scenario.verdicts))}"
-
-
-def _image(picture: bytes | None) -> str:
-    if picture is None:
-        return ""
-    alt, data = "Each bounded figure over the seeds", b64encode(picture).decode()
-    return f'<img alt="{alt}" src="data:image/png;base64,{data}">'
+    picture = strips(mine, scenario.verdicts)
+    over_seeds = image(picture, "Each bounded figure over the seeds") if picture else ""
+    return f"{head}<table>{rows}</table>{over_seeds}"
 
 
 def _row(figure: str, verdicts: Sequence[Result]) -> str:
     mine = [verdict for verdict in verdicts if verdict["figure"] == figure]
     passed = len([verdict for verdict in mine if verdict["passed"]])
-    mood = "good" if passed == len(mine) else "bad"
     expected = escape(mine[0]["expected"]) if mine else ""
-    counts = f'<td class="{mood}">{passed} of {len(mine)}</td>'
+    counts = f'<td class="{mood(passed == len(mine))}">{passed} of {len(mine)}</td>'
     return f"<tr><td>{escape(figure)}</td><td>{expected}</td>{counts}</tr>"
 
 
 def _changes(changes: Changes) -> str:
     rows = [
-        f'<tr><td>{escape(v.case)}</td><td>{escape(v.figure)}</td><td class="{_mood(v.passes)}">'
+        f'<tr><td>{escape(v.case)}</td><td>{escape(v.figure)}</td><td class="{mood(v.passes)}">'
         f"{escape(f'{v.then} to {v.now}')}</td></tr>"
         for v in changes.turned
     ]
@@ -124,7 +82,3 @@ def _changes(changes: Changes) -> str:
         f"<h2>Against the baseline</h2><p>{len(changes.other)} drives went otherwise{first}</p>"
         f"<table>{''.join(rows)}</table>"
     )
-
-
-def _mood(good: bool) -> str:
-    return "good" if good else "bad"
