@@ -224,8 +224,8 @@ def checked(scenario: ScenarioFile) -> ScenarioFile:
         known = ", ".join((*scenario_names(), TRIAL))
         raise PlacedError(("course",), f"{scenario.course!r} is unknown; there are {known}")
     vehicle = _try(("faults",), lambda: _course(scenario)).vehicle
-    for name in scenario.verdicts:
-        _try(("verdicts", name), lambda name=name: check_figure(name))
+    for name, expected in scenario.verdicts.items():
+        _try(("verdicts", name), lambda n=name, e=expected: check_figure(n, e))
     for name, varied in scenario.vary.items():
         for value in values_of(varied):
             _try(("vary", name), lambda n=name, v=value: check(n, v, vehicle))

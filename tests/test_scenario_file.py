@@ -150,6 +150,9 @@ BAD = {
     "an unknown setting": ("world.friction", "world.frction", "line 7", "world.friction"),
     "an unknown option": ("faults", "options = { density = 3 }\nfaults", "line 3", "density"),
     "no bound": ("{ least = 0.2 }", "{}", "line 15", "least"),
+    "a number for a word": ('"finished"', "{ least = 1.0 }", "line 13: verdicts.outcome", "a word"),
+    "a word for a figure": ("contacts = 0", 'contacts = "no"', "line 14", "is a number"),
+    "a table": ("contacts = 0", "states = 0", "line 14: verdicts.states", "states_entered"),
     "no TOML": ("faults = [", "faults = ", "not TOML", "line 3"),
 }
 
