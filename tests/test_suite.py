@@ -57,6 +57,16 @@ def test_a_run_adds_to_its_scenario_and_to_what_all_are_asked(tmp_path):
     assert (first.seeds, second.seeds) == ((0, 1), (0,))
 
 
+def test_each_choice_of_words_is_a_run(tmp_path):
+    text = TEXT + 'each = { device = ["gps", "imu"], how = ["silent", "late"] }\n'
+    text = text.replace("hopeless", "{how}_{device}") + 'faults = ["{device} {how} 8s"]\n'
+    runs = read_suite(str(written(tmp_path, text))).runs
+    assert [run.scenario.name for run in runs[1:]] == [
+        "silent_gps", "late_gps", "silent_imu", "late_imu",
+    ]  # fmt: skip
+    assert runs[2].scenario.faults == ("gps late 8s",)
+
+
 def test_all_runs_come_early(tmp_path):
     names = [case.name for case in cases_of(read_suite(str(written(tmp_path))))]
     assert names == ["sharp_turn 0", "hopeless 0", "sharp_turn 1"]
@@ -68,6 +78,7 @@ BAD = {
     "an unknown figure": ("outcome =", "outcme =", "line 9: run.verdicts.outcme", "outcome"),
     "an unknown key": ('name = "hope', 'nam = "hope', "line 12: run.nam", "name"),
     "one name twice": ('name = "hopeless"\n', "", "line 10: run", "name one of them"),
+    "no such word": ("hopeless", "{what}", "line 10: run.each", "{what}"),
     "no runs": ("[[run]]", "[[ran]]", "ran", "run"),
 }
 

@@ -10,11 +10,19 @@
     min_clearance_m = { least = 0.3 }
 
 A run may also have a name, and faults, ablate, options, time_limit_s and vary as a scenario's file.
+With `each` it is several, of which every one puts other words into name and faults:
+
+    [[run]]
+    scenario = "nqe"
+    each = { device = ["gps", "imu"], how = ["silent", "late"] }
+    name = "{device}_{how}"
+    faults = ["{device} {how} 60s"]
 """
 
 import tomllib
 from collections.abc import Callable
 from importlib.resources import as_file, files
+from itertools import product
 from pathlib import Path
 from typing import Any, NamedTuple, TypeVar
 
@@ -50,6 +58,8 @@ class Asked(msgspec.Struct, forbid_unknown_fields=True, frozen=True):
     seeds: str = "0"
     name: str = ""
     """The scenario's, if it is not said."""
+    each: dict[str, tuple[str, ...]] = {}
+    """A run for each choice of one word of every list."""
     options: dict[str, Any] = {}
     faults: tuple[str, ...] = ()
     ablate: tuple[str, ...] = ()
@@ -114,15 +124,40 @@ def _read(path: Path) -> Suite:
         raise SuiteError(f"{path}: not TOML: {error}") from error
     try:
         file = converted(table, File, ())
-        runs = tuple(_run(k, file, path.parent) for k in range(len(file.run)))
+        runs = [_runs(k, file, path.parent) for k in range(len(file.run))]
         _names_differ(runs)
     except PlacedError as error:
         raise SuiteError(f"{path}: {place(text, error)}") from error
-    return Suite(path.stem, file.title, runs)
+    return Suite(path.stem, file.title, tuple(run for each in runs for run in each))
 
 
-def _run(number: int, file: File, folder: Path) -> Run:
-    asked = file.run[number]
+def _runs(number: int, file: File, folder: Path) -> list[Run]:
+    asked = _told(number, "each", lambda: _each(file.run[number]))
+    return [_run(number, one, file.verdicts, folder) for one in asked]
+
+
+def _each(asked: Asked) -> list[Asked]:
+    """Its words put in; a name in braces that is no list of `each` is refused."""
+    choices = [dict(zip(asked.each, words, strict=True)) for words in product(*asked.each.values())]
+    return [
+        msgspec.structs.replace(
+            asked,
+            name=_filled(asked.name, words),
+            faults=tuple(_filled(fault, words) for fault in asked.faults),
+        )
+        for words in choices
+    ]
+
+
+def _filled(text: str, words: dict[str, str]) -> str:
+    try:
+        return text.format_map(words)
+    except (KeyError, ValueError, IndexError) as error:
+        known = ", ".join(f"{{{name}}}" for name in words) or "each"
+        raise ValueError(f"{text!r}: expected only {known} in braces") from error
+
+
+def _run(number: int, asked: Asked, common: dict[str, Expected], folder: Path) -> Run:
     scenario = _told(number, "scenario", lambda: _scenario(asked, folder))
     seeds = _told(number, "seeds", lambda: listed(asked.seeds))
     more = msgspec.structs.replace(
@@ -133,7 +168,7 @@ def _run(number: int, file: File, folder: Path) -> Run:
         ablate=(*scenario.ablate, *asked.ablate),
         time_limit_s=asked.time_limit_s or scenario.time_limit_s,
         vary=scenario.vary | asked.vary,
-        verdicts=(scenario.verdicts or ARRIVED) | file.verdicts | asked.verdicts,
+        verdicts=(scenario.verdicts or ARRIVED) | common | asked.verdicts,
     )
     return Run(_told(number, "scenario", lambda: checked(more)), tuple(seeds))
 
@@ -154,8 +189,12 @@ def _told(number: int, key: str, do: Callable[[], T]) -> T:
         raise PlacedError(("run", number, key), str(error)) from error
 
 
-def _names_differ(runs: tuple[Run, ...]) -> None:
-    names = [run.scenario.name for run in runs]
-    for number, name in enumerate(names):
-        if name in names[:number]:
-            raise PlacedError(("run", number), f"two runs are called {name!r}: name one of them")
+def _names_differ(runs: list[list[Run]]) -> None:
+    seen: set[str] = set()
+    for number, each in enumerate(runs):
+        for run in each:
+            name = run.scenario.name
+            if name in seen:
+                why = f"two runs are called {name!r}: name one of them"
+                raise PlacedError(("run", number), why)
+            seen.add(name)
