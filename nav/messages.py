@@ -23,6 +23,8 @@ LIDAR_COUNT_M = 0.01
 """One count of a SICK LMS 221 range, in metres."""
 LIDAR_NO_RETURN_COUNT = 8192
 """The count that means "no return": 81.92 m, one above the largest range."""
+LIDAR_NO_RETURN_M = LIDAR_NO_RETURN_COUNT * LIDAR_COUNT_M
+"""What such a beam reads in metres: no other reads as much."""
 
 
 class Gear(IntEnum):

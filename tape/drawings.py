@@ -33,8 +33,7 @@ from foxglove.messages import (
 )
 
 from nav.messages import (
-    LIDAR_COUNT_M,
-    LIDAR_NO_RETURN_COUNT,
+    LIDAR_NO_RETURN_M,
     Decision,
     EgoEstimate,
     FollowPath,
@@ -53,7 +52,6 @@ IDENTITY = Pose(position=Vector3(), orientation=Quaternion(w=1.0))
 GOAL_ARROW_M = 5.0
 LABEL_HEIGHT_M = 3.0
 
-_NO_RETURN_M = LIDAR_NO_RETURN_COUNT * LIDAR_COUNT_M
 _FLOAT32 = PackedElementFieldNumericType.Float32
 
 
@@ -67,7 +65,7 @@ _XY_CONFIDENCE = _fields("x", "y", "confidence")
 def scan(stamp: Timestamp, message: LidarScan) -> LaserScan:
     """A scan in the scanner's frame, to 1/64 m: short fractions halve its size on the disk."""
     range_m = np.rint(message.range_m * 64) / 64
-    range_m[message.range_m >= _NO_RETURN_M] = math.inf
+    range_m[message.range_m >= LIDAR_NO_RETURN_M] = math.inf
     return LaserScan(
         timestamp=stamp,
         frame_id=message.sensor,

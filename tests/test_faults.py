@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 
 from nav.messages import (
+    LIDAR_NO_RETURN_M,
     CompassHeading,
     Floats,
     Gear,
@@ -20,7 +21,6 @@ from nav.messages import (
 )
 from tape.codec import encode
 from twin.faults import Fault, Faults, parse
-from twin.faults.spoiled import NO_RETURN_M
 
 S = 10**9
 KNOWN = ("gps", "imu", "lidar_roof", "brake", "gear")
@@ -104,7 +104,7 @@ def test_what_is_late_says_by_how_much():
 
 
 MESSAGES = [
-    LidarScan(S, "lidar_roof", np.where(np.arange(361) % 2, 5.0, NO_RETURN_M)),
+    LidarScan(S, "lidar_roof", np.where(np.arange(361) % 2, 5.0, LIDAR_NO_RETURN_M)),
     SonarScan(S, np.array([1.0, 4.0, 2.0, 2.0, 4.0, 4.0, 3.0, 1.0])),
     RadarTracks(S, np.array([20.0, 30.0]), np.zeros(2), np.zeros(2)),
     GpsFix(S, GpsQuality.CONVERGED, 8, 34.0, -117.0, 0.0, 0.1, np.zeros(3)),
@@ -122,7 +122,7 @@ def test_every_sensor_can_be_noisy_and_wrong(message, kind):
     first, second = (faults.heard(t * S, "it", message) for t in (1, 2))
     assert encode(first) != encode(message)  # and the tape can hold it
     assert (encode(first) == encode(second)) is (kind == "offset")
-    none = {LidarScan: NO_RETURN_M, SonarScan: 4.0}.get(type(message))
+    none = {LidarScan: LIDAR_NO_RETURN_M, SonarScan: 4.0}.get(type(message))
     for f in fields(message):
         if f.type is Floats and none:
             was, now = getattr(message, f.name), getattr(first, f.name)

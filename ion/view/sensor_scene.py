@@ -10,8 +10,14 @@ from ion.view.canvas import Canvas, Precision
 from ion.view.places import Floats, Places
 from ion.view.shapes import edges, rgb, segments
 from ion.view.timeline import Moment, Timeline
-from nav.fusion.scan_geometry import NO_RETURN_M, scan_geometry
-from nav.messages import FollowPath, LidarScan, ObstacleCells, SonarScan
+from nav.fusion.scan_geometry import scan_geometry
+from nav.messages import (
+    LIDAR_NO_RETURN_M,
+    FollowPath,
+    LidarScan,
+    ObstacleCells,
+    SonarScan,
+)
 from nav.parameters import Parameters
 from nav.planning.boundaries import REAL as REAL_LEVEL
 from nav.planning.boundaries import SAFE as SAFE_LEVEL
@@ -95,7 +101,7 @@ class SensorScene:
         """Where the beams ended, as seen from where the vehicle was then."""
         geometry, then = self._geometry[scan.sensor], timeline.at(scan.time_ns * 1e-9)
         pose = self._places.vehicle(then)
-        hit = scan.range_m < NO_RETURN_M
+        hit = scan.range_m < LIDAR_NO_RETURN_M
         fan = (geometry.ray * scan.range_m)[:, hit]
         local = (geometry.mount[:, :2] @ fan).T + geometry.mount[:, 2]
         return pose.to_world(local) if pose else np.zeros((0, 3))

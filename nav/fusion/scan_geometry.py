@@ -12,11 +12,8 @@ from typing import NamedTuple
 import numpy as np
 
 from nav.fusion.lattice import Ints
-from nav.messages import LIDAR_COUNT_M, LIDAR_NO_RETURN_COUNT, Floats, LidarScan
+from nav.messages import LIDAR_NO_RETURN_M, Floats, LidarScan
 from nav.parameters.vehicle import Lidar, LidarMount, Outline
-
-NO_RETURN_M = (LIDAR_NO_RETURN_COUNT - 0.5) * LIDAR_COUNT_M
-"""Ranges from here on say that nothing came back."""
 
 
 class Pose(NamedTuple):
@@ -143,7 +140,7 @@ def returns(scans: Scans, max_range_m: float) -> Ints:
         max_range_m: farther returns are left out, as are beams without one.
     """
     exit_m = np.array([geometry.exit_m for geometry in scans.geometry])
-    far = min(max_range_m, NO_RETURN_M)
+    far = min(max_range_m, LIDAR_NO_RETURN_M)
     return np.flatnonzero((scans.range_m > exit_m) & (scans.range_m < far))
 
 

@@ -10,8 +10,7 @@ from typing import Any
 import numpy as np
 
 from nav.messages import (
-    LIDAR_COUNT_M,
-    LIDAR_NO_RETURN_COUNT,
+    LIDAR_NO_RETURN_M,
     CompassHeading,
     Gear,
     GpsFix,
@@ -29,7 +28,6 @@ from scenarios.mutants.mutant import Mutant, remade
 Hear = Callable[[int, Sequence[SensorMessage]], Sequence[SensorMessage]]
 """From the time of a call and its messages to those that are heard."""
 
-NO_RETURN_M = LIDAR_NO_RETURN_COUNT * LIDAR_COUNT_M
 NO_ECHO_M = 100.0
 """Farther than any sonar hears."""
 NEAR_M = 8.0
@@ -102,16 +100,16 @@ def _deaf(echoes: SonarScan) -> SonarScan:
 
 
 def _blind_roof(scan: LidarScan) -> LidarScan:
-    far = np.full_like(scan.range_m, NO_RETURN_M)
+    far = np.full_like(scan.range_m, LIDAR_NO_RETURN_M)
     return replace(scan, range_m=far) if scan.sensor == "lidar_roof" else scan
 
 
 def _far(scan: LidarScan) -> LidarScan:
-    return replace(scan, range_m=np.where(scan.range_m < NEAR_M, NO_RETURN_M, scan.range_m))
+    return replace(scan, range_m=np.where(scan.range_m < NEAR_M, LIDAR_NO_RETURN_M, scan.range_m))
 
 
 def _longer(scan: LidarScan) -> LidarScan:
-    return replace(scan, range_m=np.minimum(LONGER * scan.range_m, NO_RETURN_M))
+    return replace(scan, range_m=np.minimum(LONGER * scan.range_m, LIDAR_NO_RETURN_M))
 
 
 def _mirrored(scan: LidarScan) -> LidarScan:

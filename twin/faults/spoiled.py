@@ -13,6 +13,7 @@ import numpy as np
 from nav.messages import (
     LIDAR_COUNT_M,
     LIDAR_NO_RETURN_COUNT,
+    LIDAR_NO_RETURN_M,
     CompassHeading,
     GpsFix,
     ImuSample,
@@ -30,7 +31,6 @@ PERIOD_S = 4.0
 """Usual period of what flaps."""
 DEGREE_M = 111_320.0
 """A degree of latitude; the size of a fault need not be more exact."""
-NO_RETURN_M = LIDAR_NO_RETURN_COUNT * LIDAR_COUNT_M
 Errors = Callable[[int], Any]
 """Draws n errors in the unit of the quantity."""
 
@@ -64,7 +64,7 @@ def _scan(scan: LidarScan, errors: Errors) -> LidarScan:
     """In counts, as the scanner says it; what has no return has none."""
     counts = np.rint((scan.range_m + errors(len(scan.range_m))) / LIDAR_COUNT_M)
     counts = np.clip(counts, 0, LIDAR_NO_RETURN_COUNT - 1) + 0.0  # no -0
-    none = scan.range_m >= NO_RETURN_M
+    none = scan.range_m >= LIDAR_NO_RETURN_M
     return replace(scan, range_m=np.where(none, scan.range_m, counts * LIDAR_COUNT_M))
 
 

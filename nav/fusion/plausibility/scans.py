@@ -4,9 +4,9 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
-from nav.fusion.plausibility.steps import NO_RETURN_M, Steps
+from nav.fusion.plausibility.steps import Steps
 from nav.fusion.plausibility.witnesses import Ego
-from nav.messages import Floats, LidarScan
+from nav.messages import LIDAR_NO_RETURN_M, Floats, LidarScan
 from nav.parameters.plausibility import ScanParameters
 
 STANDS_MPS = 0.05
@@ -37,21 +37,19 @@ class Scans:
             return None
         self.looked_ns = scan.time_ns
         if scan.range_m.tobytes() == before.tobytes():
-            return "frozen" if np.count_nonzero(before < NO_RETURN_M) >= p.least else None
+            return "frozen" if np.count_nonzero(before < LIDAR_NO_RETURN_M) >= p.least else None
         if abs(self.steps.sum_m) > p.step.least_m:
             return f"all its ranges changed by {self.steps.sum_m:.1f} m"
         if ego.rocking_radps > p.rocking_radps:  # over a bump: beams sweep the ground
             return None
         stands = abs(speed_mps) < STANDS_MPS  # so what is far away looks the same, too
-        steady = steadiness(before, scan.range_m, NO_RETURN_M if stands else p.near_m, p)
+        steady = steadiness(before, scan.range_m, LIDAR_NO_RETURN_M if stands else p.near_m, p)
         if steady is None:
             return None
         return "noisy" if steady < p.steady_share else ""
 
 
-def steadiness(
-    before_m: Floats, range_m: Floats, near_m: float, p: ScanParameters
-) -> float | None:
+def steadiness(before_m: Floats, range_m: Floats, near_m: float, p: ScanParameters) -> float | None:
     """The share of beams nearer than `near_m` whose range changes as their neighbour's from scan to
     scan.
 

@@ -14,10 +14,9 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from nav.messages import Floats
+from nav.messages import LIDAR_NO_RETURN_M, Floats
 from nav.parameters.plausibility import StepParameters
 
-NO_RETURN_M = 81.92
 EVERY = 4
 """So many beams are enough to see that all have stepped."""
 
@@ -90,7 +89,7 @@ def _alike_m(four: Sequence[Seen], p: StepParameters) -> float:
 
 def _meet(*seen: Seen) -> NDArray[np.intp]:
     """The beams that meet something in all scans."""
-    return np.flatnonzero(np.max([s.range_m for s in seen], axis=0) < NO_RETURN_M)
+    return np.flatnonzero(np.max([s.range_m for s in seen], axis=0) < LIDAR_NO_RETURN_M)
 
 
 def _median(values: Floats) -> float:
