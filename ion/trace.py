@@ -14,6 +14,7 @@ if TYPE_CHECKING:
     from scenarios.episode import Episode
 
 Floats = NDArray[np.float64]
+Cells = NDArray[np.int32]
 
 EVERY = 10
 """Ticks between two places: 0.2 s."""
@@ -27,8 +28,8 @@ class Trace:
     def __init__(self) -> None:
         self._tick = 0
         self._places = array("d")
-        self._cells: NDArray[np.int64] = np.zeros((0, 2), np.int64)
-        self._new: list[NDArray[np.int64]] = []
+        self._cells: Cells = np.zeros((0, 2), np.int32)
+        self._new: list[Cells] = []
         self._cell_m = 1.0
 
     def __call__(self, episode: "Episode", records: Sequence[Record]) -> None:
@@ -40,7 +41,7 @@ class Trace:
         self._cell_m = episode.navigator.parameters.obstacle_map.cell_m
         for record in records:
             if isinstance(record.message, ObstacleCells):
-                cells = np.floor(record.message.position_m / self._cell_m).astype(np.int64)
+                cells = np.floor(record.message.position_m / self._cell_m).astype(np.int32)
                 self._new.append(cells.reshape(-1, 2))
         if len(self._new) >= MERGED:
             self._merge()

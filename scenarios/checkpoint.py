@@ -11,10 +11,10 @@ import os
 import pickle
 import secrets
 from pathlib import Path
-from typing import Any
+from typing import Any, BinaryIO
 
 MAGIC = b"ION checkpoint 1\n"
-KEY_BYTES = 32
+KEY_BYTES = SIGNATURE_BYTES = 32
 
 
 class CheckpointError(ValueError):
@@ -27,18 +27,38 @@ def save(path: Path, state: Any) -> None:
     Raises:
         CheckpointError: it cannot be written.
     """
-    content = pickle.dumps(state, protocol=pickle.HIGHEST_PROTOCOL)
     part = path.with_name(path.name + ".part")
     try:
         with open(part, "wb") as file:
-            file.write(MAGIC + _signature(content) + content)
-            file.flush()
+            _write(file, state)
             os.fsync(file.fileno())
         part.replace(path)
     except OSError as error:
         raise CheckpointError(f"{path}: cannot be written: {error.strerror}") from error
     finally:
         part.unlink(missing_ok=True)
+
+
+def _write(file: BinaryIO, state: Any) -> None:
+    """The pickle as it comes: a copy of all that a long drive knows would be its largest part."""
+    file.write(MAGIC + bytes(SIGNATURE_BYTES))
+    signing = _Signing(file)
+    pickle.Pickler(signing, pickle.HIGHEST_PROTOCOL).dump(state)
+    file.seek(len(MAGIC))
+    file.write(signing.signature.digest())
+    file.flush()
+
+
+class _Signing:
+    """Writes to a file, and signs what it writes."""
+
+    def __init__(self, file: BinaryIO) -> None:
+        self._file, self.signature = file, _signature()
+
+    def write(self, content: bytes) -> int:
+        """Take a part."""
+        self.signature.update(content)
+        return self._file.write(content)
 
 
 def load(path: Path) -> Any:
@@ -53,8 +73,11 @@ def load(path: Path) -> Any:
         raise CheckpointError(f"{path}: cannot be read: {error.strerror}") from error
     if not raw.startswith(MAGIC):
         raise CheckpointError(f"{path}: no checkpoint; expected one that ion drive wrote")
-    signature, content = raw[len(MAGIC) :][:KEY_BYTES], raw[len(MAGIC) + KEY_BYTES :]
-    if not hmac.compare_digest(signature, _signature(content)):
+    begin = len(MAGIC) + SIGNATURE_BYTES
+    said, content = raw[len(MAGIC) : begin], memoryview(raw)[begin:]
+    signature = _signature()
+    signature.update(content)
+    if not hmac.compare_digest(said, signature.digest()):
         raise CheckpointError(
             f"{path}: damaged, or of another user; expected one that ion drive wrote here"
         )
@@ -64,8 +87,9 @@ def load(path: Path) -> Any:
         raise CheckpointError(f"{path}: of another version of ion: {error}") from error
 
 
-def _signature(content: bytes) -> bytes:
-    return hmac.new(_key(), content, hashlib.sha256).digest()
+def _signature() -> hmac.HMAC:
+    """Of nothing yet."""
+    return hmac.new(_key(), digestmod=hashlib.sha256)
 
 
 def _key() -> bytes:
