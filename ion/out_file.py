@@ -1,6 +1,8 @@
-"""The file that an option names: tried before the work begins, written whole or not at all."""
+"""The file or folder that an option names: tried before the work begins; a file is written whole or
+not at all."""
 
 from pathlib import Path
+from tempfile import TemporaryFile
 
 from ion.errors import UsageError
 
@@ -20,6 +22,20 @@ def check_file(path: Path, option: str = "--out") -> None:
             path.unlink()
     except OSError as error:
         raise UsageError(f"{option} {path}: cannot be written: {error.strerror}") from error
+
+
+def check_folder(folder: Path) -> None:
+    """Make the folder of `--out`, and try it before the work begins.
+
+    Raises:
+        UsageError: it cannot be written.
+    """
+    try:
+        folder.mkdir(parents=True, exist_ok=True)
+        with TemporaryFile(dir=folder):
+            pass
+    except OSError as error:
+        raise UsageError(f"--out {folder}: cannot be written: {error.strerror}") from error
 
 
 def write_whole(path: Path, text: str) -> None:

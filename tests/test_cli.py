@@ -14,9 +14,9 @@ import pytest
 from mcap.reader import make_reader
 
 from ion.__main__ import main
+from ion.drive.options import Options, job_of, seeds_of
 from ion.errors import UsageError
 from ion.job import Job
-from ion.options import Options, job_of, seeds_of
 from ion.telling import as_json, line, summary
 from scenarios.processor import fingerprint, fix_processor, settings
 from tape.digest import Digest

@@ -137,7 +137,7 @@ def test_an_offset_is_as_large_as_said():
 
 
 def test_a_fault_of_a_drive_stands_on_its_tape_and_is_driven_again(tmp_path):
-    from ion.options import Options, job_of
+    from ion.drive.options import Options, job_of
 
     lines = ("lidar_bumper silent 12s recovers 9s", "brake late by 0.2 30m")
     recorded = job_of(Options("dead_end", fault=lines, out=tmp_path)).recorded(3)

@@ -8,8 +8,8 @@ import numpy as np
 import pytest
 
 from ion.__main__ import main
+from ion.drive.options import Options, job_of
 from ion.errors import UsageError
-from ion.options import Options, job_of
 from nav.messages import LidarScan
 from scenarios.episode import Episode
 from scenarios.random_field import build

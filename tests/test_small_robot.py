@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 
 from ion.courses import Source
+from ion.drive.options import Options, job_of
 from ion.errors import UsageError
-from ion.options import Options, job_of
 from nav.route import rddf
 from scenarios.episode import Episode
 from scenarios.run import run

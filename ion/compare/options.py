@@ -8,8 +8,8 @@ from tyro.conf import Positional, UseAppendAction, arg
 
 from ion.courses import scenario_source
 from ion.errors import UsageError
-from ion.options import listed
 from ion.out_file import check_file
+from ion.seeds import listed
 
 if TYPE_CHECKING:
     from ion.compare.variants import Comparison

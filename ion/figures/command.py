@@ -17,7 +17,7 @@ from ion.figures import (
 from ion.figures.drives import Drives, drive_all
 from ion.figures.options import Options
 from ion.figures.page import Drawn, page
-from ion.options import check_folder
+from ion.out_file import check_folder
 from ion.style import png
 
 FIGURES = (

@@ -19,7 +19,8 @@ from ion.replay.table import platform, sentence, table
 from nav.errors import NavError
 from nav.parameters import ION
 from scenarios.batch import many, stop_asked
-from scenarios.replay import Tick, navigator_of, replay, tolerance, unlike
+from scenarios.replay import Tick, navigator_of, tolerance, unlike
+from scenarios.replay import replay as replayed
 from tape.errors import TapeError
 from tape.reader import metadata, span_ns
 
@@ -28,7 +29,7 @@ Watch = Callable[[float], AbstractContextManager[Shown]]
 """Is given the time at which the tape ends, [s]."""
 
 
-def replay_tapes(options: Options) -> int:
+def replay(options: Options) -> int:
     """Do what the options ask; returns the exit code.
 
     Raises:
@@ -58,13 +59,13 @@ class Work:
             watch: gives, for the time from the first tick to the last, what is shown each.
 
         Raises:
-            UsageError, TapeError: as `replay_tapes`.
+            UsageError, TapeError: as `replay`.
         """
         end_s = span_ns(log)[1] * 1e-9
         check_scans(log)
         path = picture_path(log, self.options.out, self.options.json)
         instead = texts_of(self.options.parameters, metadata(log).get("vehicle", ION))
-        ticks = replay(log, navigator_of(log, instead))
+        ticks = replayed(log, navigator_of(log, instead))
         with watch(end_s) as shown:
             comparison = compare(ticks, tolerance(log), shown)
         if not comparison.ticks:

@@ -6,8 +6,10 @@ from typing import TYPE_CHECKING, Annotated
 
 from tyro.conf import Positional, UseAppendAction, arg
 
+from ion.drive.options import Log
 from ion.errors import UsageError
-from ion.options import Log, check_folder, listed
+from ion.out_file import check_folder
+from ion.seeds import listed
 
 if TYPE_CHECKING:
     from scenarios.suites import Suite

@@ -2,7 +2,6 @@
 
 from dataclasses import dataclass, replace
 from pathlib import Path
-from tempfile import TemporaryFile
 from typing import TYPE_CHECKING, Annotated, Literal
 
 from tyro.conf import Positional, UseAppendAction, arg
@@ -10,8 +9,9 @@ from tyro.conf import Positional, UseAppendAction, arg
 from ion.courses import Source, route_source, scenario_names, scenario_source
 from ion.errors import UsageError
 from ion.job import Job
+from ion.out_file import check_folder
+from ion.seeds import listed
 from ion.view.options import LOCAL
-from scenarios import seeds
 from scenarios.scenario import FLAGS
 
 if TYPE_CHECKING:
@@ -119,18 +119,6 @@ def seeds_of(options: Options) -> list[int]:
     return listed(options.seeds, "--seeds")
 
 
-def listed(text: str, what: str) -> list[int]:
-    """A list of seeds as people write it: 7, 0-19 or 1,4,7-9.
-
-    Raises:
-        UsageError: it is none.
-    """
-    try:
-        return seeds.listed(text)
-    except ValueError as error:
-        raise UsageError(f"{what} {error}") from error
-
-
 def _source(options: Options) -> Source:
     asked = {name: getattr(options, name) for name in SCENARIO_OPTIONS}
     given = {name: value for name, value in asked.items() if value is not None}
@@ -170,17 +158,3 @@ def _check_faults(source: Source) -> None:
             source.course(0)
         except ValueError as error:
             raise UsageError(f"--fault {error}") from error
-
-
-def check_folder(folder: Path) -> None:
-    """Make the folder of `--out`, and try it before the work begins.
-
-    Raises:
-        UsageError: it cannot be written.
-    """
-    try:
-        folder.mkdir(parents=True, exist_ok=True)
-        with TemporaryFile(dir=folder):
-            pass
-    except OSError as error:
-        raise UsageError(f"--out {folder}: cannot be written: {error.strerror}") from error

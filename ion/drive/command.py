@@ -7,8 +7,8 @@ from typing import Any
 
 from rich.console import Console
 
+from ion.drive.options import Options, checkpoint_of, job_of, seeds_of
 from ion.job import Job
-from ion.options import Options, checkpoint_of, job_of, seeds_of
 from ion.telling import Bar, Result, as_asked, as_json, line, summary, table
 from scenarios.batch import many
 from scenarios.run import Watch
