@@ -33,6 +33,7 @@ def _command() -> int:
     from ion.calibrate.options import Options as CalibrateOptions
     from ion.compare.options import Options as CompareOptions
     from ion.explain.options import Options as ExplainOptions
+    from ion.falsify.options import Options as FalsifyOptions
     from ion.figures.options import Options as FiguresOptions
     from ion.options import Options
     from ion.replay.options import Options as ReplayOptions
@@ -114,6 +115,13 @@ def _command() -> int:
         from ion.suite import command
 
         return command.suite(options)
+
+    @app.command
+    def falsify(options: Annotated[FalsifyOptions, tyro.conf.arg(name="")]) -> int:
+        """Search a scenario for the drive that fails, and make the simplest case of it."""
+        from ion.falsify import command
+
+        return command.falsify(options)
 
     @app.command
     def truth(options: Annotated[TruthOptions, tyro.conf.arg(name="")]) -> int:

@@ -77,11 +77,12 @@ class Drives:
         interrupted = False
         for driven in self._many(Work(points, self._broken), range(len(points))):
             if driven["outcome"] == "error":
-                raise BrokenDriveError(driven["message"])
+                broken = points[driven["seed"]]
+                raise BrokenDriveError(f"seed {broken.seed}, {broken.values}: {driven['message']}")
             if driven["outcome"] == "interrupted":
                 interrupted = True
                 continue
-            number = driven.pop("number")
+            number = driven.pop("number")  # what the pool calls its seed
             self._keep(holds[number], points[number], driven)
         if interrupted:
             raise KeyboardInterrupt
