@@ -4,18 +4,18 @@
 Each fault of `tests/planted` is searched ten times by what `ion falsify` does and ten times at
 random, each time with another seed of the search, until its first failed verdict. What the search
 finds is shrunk, written, read and driven again. A line for each search as it ends, then a table:
-medians, and how many shrunk cases still fail. All drives are kept: one that was stopped goes on where
-it was. An hour on one core.
+medians, and how many shrunk cases still fail. All drives are kept: one that was stopped goes on
+where it was. An hour on one core.
 """
 
 import sys
+import tomllib
 from argparse import ArgumentParser
 from collections.abc import Iterator
-from concurrent.futures import ProcessPoolExecutor, as_completed
+from dataclasses import dataclass
 from hashlib import sha256
 from inspect import getsource
 from itertools import product
-from multiprocessing import get_context
 from pathlib import Path
 from statistics import median
 from typing import Any, NamedTuple
@@ -27,9 +27,11 @@ from ion.falsify.drives import Drives
 from ion.falsify.samplers import SAMPLERS
 from ion.falsify.search import Episode, search
 from ion.falsify.shrink import shrunk
-from ion.falsify.space import Space, usual
+from ion.falsify.space import Point, Space, usual
+from ion.falsify.written import write
 from ion.suite.cases import code
-from scenarios.processor import fix_processor
+from scenarios.batch import many
+from scenarios.scenario_file import read_scenario
 
 SEEDS = tuple(range(20))
 SHRINK = 40
@@ -49,6 +51,20 @@ class Found(NamedTuple):
     still_fails: bool = False
 
 
+@dataclass(frozen=True)
+class Searches:
+    """A search by its number, for `scenarios.batch`."""
+
+    units: list[tuple[int, str, str]]
+    """Repeat, fault and sampler."""
+    budget: int
+    out: Path
+
+    def __call__(self, number: int) -> dict[str, Any]:
+        repeat, fault, sampler = self.units[number]
+        return {"found": found(fault, sampler, repeat, self.budget, self.out)}
+
+
 def found(fault: str, sampler: str, repeat: int, budget: int, out: Path) -> Found:
     """Search for one fault, once."""
     space = Space(scenario_of(fault), SEEDS)
@@ -65,9 +81,11 @@ def found(fault: str, sampler: str, repeat: int, budget: int, out: Path) -> Foun
 
 def _shrunk(told: Found, space: Space, drives: Drives, episode: Episode) -> Found:
     small = shrunk(space, drives, usual(space.scenario), episode, SHRINK)
-    again = drives([small.episode.point])[0]
-    fails = small.figure in Episode(small.episode.point, again).failed
-    values = {small.figure: again["cost"]} | small.episode.point.values
+    table = tomllib.loads((planted.FOLDER / f"{told.fault}.toml").read_text(encoding="utf-8"))
+    read = read_scenario(write(drives.path.parent, table, small, []))
+    point = Point(read, {}, small.episode.point.seed)
+    fails = small.figure in Episode(point, drives([point])[0]).failed
+    values = {"verdict": small.figure, **small.episode.point.values}
     return told._replace(shrink_drives=small.drives, values=values, still_fails=fails)
 
 
@@ -111,13 +129,12 @@ def main() -> None:
     ask.add_argument("--budget", type=int, default=150)
     ask.add_argument("--out", type=Path, default=Path("runs/bench_falsify"))
     asked = ask.parse_args()
-    fix_processor()
-    units = product(range(asked.repeats), asked.faults, SAMPLERS)
-    with ProcessPoolExecutor(asked.jobs, get_context("spawn")) as pool:
-        due = [pool.submit(found, f, s, r, asked.budget, asked.out) for r, f, s in units]
-        for done in as_completed(due):
-            print(*done.result(), file=sys.stderr, flush=True)
-    print("\n".join(table(sorted(d.result() for d in due))))
+    units = list(product(range(asked.repeats), asked.faults, SAMPLERS))
+    work, rows = Searches(units, asked.budget, asked.out), list[Found]()
+    for done in many(work, range(len(units)), asked.jobs):
+        rows.append(done["found"])
+        print(*rows[-1], file=sys.stderr, flush=True)
+    print("\n".join(table(sorted(rows))))
 
 
 if __name__ == "__main__":
