@@ -4,12 +4,14 @@ command."""
 import json
 import sys
 import tomllib
+from contextlib import nullcontext
 from statistics import median
 
 import msgspec
 import pytest
 from test_cli import ion, refused
 
+from ion.falsify import command
 from ion.falsify.cost import cost, margin
 from ion.falsify.drives import FILE, BrokenDriveError, Drives
 from ion.falsify.picture import draw, telling
@@ -21,6 +23,7 @@ from ion.falsify.written import failing_table, toml, write
 from scenarios.bounds import Bound, judged
 from scenarios.distribution import Distribution, quantile
 from scenarios.scenario_file import ScenarioFile, read_scenario
+from scenarios.suites import read_suite
 
 GRIP, CAP = "world.friction", "navigator.planning.speed.cap_mps"
 NOISE = "sensors.lidar.noise_sd_m"
@@ -169,7 +172,7 @@ def test_a_case_shrinks_to_what_is_needed():
 def test_a_small_budget_leaves_a_case_that_fails(budget):
     small = shrunk(SPACE, drive, USUAL, worst_case(), budget)
     assert small.figure in small.episode.failed
-    assert small.drives <= budget + 4
+    assert small.drives <= budget
 
 
 def test_what_is_written_can_be_read_and_says_the_same(tmp_path):
@@ -237,6 +240,25 @@ def test_a_drive_that_breaks_or_is_stopped_is_not_kept(outcome, raised, tmp_path
     assert not (tmp_path / FILE).exists()
 
 
+ENDS = {
+    "nothing failed": ("finished", 0, "nothing failed in 3 drives"),
+    "a drive broke": ("error", 3, "a drive broke: seed"),
+    "it was stopped": ("interrupted", 130, "say it again"),
+}
+
+
+@pytest.mark.parametrize("what", ENDS)
+def test_how_else_a_search_ends(what, monkeypatch, capsys, tmp_path):
+    outcome, expected, words = ENDS[what]
+    passes = {"outcome": outcome, "cost": 0.5, "clear_m": 1.0, "verdicts": [], "message": "why"}
+    made_up_workers = nullcontext(one_by_one(passes)[0])
+    monkeypatch.setattr(command, "workers", lambda jobs: made_up_workers)
+    arguments = ("falsify", "real_wall", "--seeds", "0-2", "--out", tmp_path)
+    code, out, err = ion(monkeypatch, capsys, *arguments)
+    assert code == expected
+    assert words in out + err
+
+
 BAD = {
     "an unknown scenario": (["nowhere"], "nqe"),
     "no budget": (["nqe", "--budget", "0"], "--budget 0: expected 1 or more"),
@@ -275,5 +297,8 @@ def test_a_real_search_finds_shrinks_and_writes_what_drives_again(monkeypatch, c
     again = json.loads(ion(monkeypatch, capsys, *arguments)[1])
     assert again == told
     assert (tmp_path / "falsify_short" / FILE).read_text() == kept
+    suite = tmp_path / "held.toml"
+    suite.write_text(f'title = "Held."\n[[run]]\nscenario = "{written}"\nseeds = "2"\n')
+    assert read_suite(str(suite)).runs[0].scenario.verdicts == {"distance_m": Bound(least=0.5)}
     code, out, _ = ion(monkeypatch, capsys, "drive", written, "--seed", 2, "--json", "--log", "off")
     assert (code, json.loads(out)["verdicts"][0]["passed"]) == (1, False)

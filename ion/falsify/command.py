@@ -40,6 +40,11 @@ class Told(NamedTuple):
         """The lowest cost of the search."""
         return min(self.episodes, key=lambda episode: episode.cost)
 
+    @property
+    def failed(self) -> int:
+        """How many drives of the search failed a verdict."""
+        return sum(bool(episode.failed) for episode in self.episodes)
+
 
 def falsify(options: Options) -> int:
     """Do what the options ask; returns the exit code.
@@ -125,7 +130,7 @@ def summary(told: Told) -> Result:
     small, best = told.small, told.small.episode if told.small else told.worst
     return {
         "episodes": len(told.episodes),
-        "failed": sum(bool(episode.failed) for episode in told.episodes),
+        "failed": told.failed,
         "best_cost": told.worst.cost,
         "least_clearance_m": min(e.result["clear_m"] for e in told.episodes),
         "figure": small.figure if small else None,
@@ -144,8 +149,8 @@ def _say(told: Told, known: dict[str, Any]) -> None:
         print(f"nothing failed in {len(told.episodes)} drives; nearest to it was")
         console.print(_table(point, known))
     else:
-        print(f"FAILED after {len(told.episodes)} drives: {_reason(small)}")
-        print(f"the simplest case, after {small.drives} more:")
+        print(f"FAILED: {_reason(small)}")
+        print(f"{told.failed} of {len(told.episodes)} drives; made simple in {small.drives} more:")
         console.print(_table(small.episode.point, known))
         print(*seeds_said(small))
         print(f"file: {told.file}")

@@ -129,7 +129,8 @@ def _nearer(case: Shrinking, name: str) -> None:
 
 def _with_other_seeds(case: Shrinking) -> tuple[int, int]:
     """How many were tried, and how many fail."""
-    others = [s for s in case.space.seeds if s != case.point.seed][:OTHERS]
+    count = min(OTHERS, case.budget - case.drives)
+    others = [s for s in case.space.seeds if s != case.point.seed][:count]
     points = [case.space.at(case.point.values, seed, **case.more) for seed in others]
     results = case.drive(points) if points else []
     failing = [
