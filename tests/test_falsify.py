@@ -8,7 +8,9 @@ from contextlib import nullcontext
 from statistics import median
 
 import msgspec
+import numpy as np
 import pytest
+from planted import PLANTED, scenario_of
 from test_cli import ion, refused
 
 from ion.falsify import command
@@ -142,6 +144,16 @@ def test_a_search_is_the_same_each_time(at_once):
     assert points() == points()
     assert len(points()) == 10
     assert len({str(point) for point in points()}) == 10
+
+
+@pytest.mark.parametrize("name", PLANTED)
+def test_planted_faults_are_rare_and_come_on_gradually(name):
+    space, rng = Space(scenario_of(name), (0,)), np.random.default_rng(0)
+    places = rng.random((500, len(space.varied))).tolist()
+    severity = [PLANTED[name].severity(space.point(place, 0).values) for place in places]
+    assert 0.0 < np.mean(np.array(severity) > 0.6) < 0.08
+    assert np.mean(np.array(severity) < 0.1) > 0.5
+    assert len(set(severity)) > 50
 
 
 def test_seeds_take_turns_and_are_all_that_is_searched_where_nothing_varies():
