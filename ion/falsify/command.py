@@ -1,5 +1,6 @@
 """`ion falsify`: search, shrink, write, tell."""
 
+import json
 import sys
 from collections.abc import Iterator, Sequence
 from pathlib import Path
@@ -18,7 +19,7 @@ from ion.falsify.shrink import Shrunk, shrunk
 from ion.falsify.space import Point, usual
 from ion.falsify.written import seeds_said, write
 from ion.suite.cases import code
-from ion.telling import Result, as_json
+from ion.telling import Result
 from scenarios.batch import workers
 from scenarios.scenario_file import read_scenario
 
@@ -62,7 +63,7 @@ def falsify(options: Options) -> int:
         print("ion: interrupted; what was driven is kept: say it again", file=sys.stderr)
         return INTERRUPTED
     if options.json:
-        print(as_json(summary(told)))
+        print(json.dumps(summary(told)))
     else:
         _say(told, usual(asked.space.scenario))
     return FAILED if told.small else PASSED
@@ -72,17 +73,21 @@ def _searched(asked: Asked, options: Options) -> Told:
     with workers(options.jobs) as many, _bar() as bar:
         drive = Drives(asked.folder, code(), many)
         episodes = list(_episodes(asked, options, drive, bar))
-        picture = asked.folder / PICTURE
-        draw(episodes, asked.space.varied, asked.space.scenario.title, picture)
-        worst = min(episodes, key=lambda episode: episode.cost)
-        if not worst.failed:
-            return Told(episodes, None, None, picture)
-        bar.add_task("shrinking", total=None)
-        known = usual(asked.space.scenario)
-        small = shrunk(asked.space, drive, known, worst, options.shrink)
-        file = write(asked.folder, asked.table, small, _how(options, episodes, small))
-        _check(file, small, drive)
-    return Told(episodes, small, file, picture)
+        told = Told(episodes, None, None, asked.folder / PICTURE)
+        draw(episodes, asked.space.varied, asked.space.scenario.title, told.picture)
+        if not told.failed:
+            return told
+        bar.add_task("making it simple", total=None)
+        return _made_simple(told, asked, options, drive)
+
+
+def _made_simple(told: Told, asked: Asked, options: Options, drive: Drive) -> Told:
+    """With the simplest case, written, read and driven once more."""
+    known = usual(asked.space.scenario)
+    small = shrunk(asked.space, drive, known, told.worst, options.shrink)
+    file = write(asked.folder, asked.table, small, _how(options, told.episodes, small))
+    _check(file, small, drive)
+    return told._replace(small=small, file=file)
 
 
 def _episodes(asked: Asked, options: Options, drive: Drive, bar: Progress) -> Iterator[Episode]:
@@ -126,7 +131,7 @@ def _reason(small: Shrunk) -> str:
 
 
 def summary(told: Told) -> Result:
-    """The object of `--json`."""
+    """The object of `--json`; its values are those that drive the same again, to the bit."""
     small, best = told.small, told.small.episode if told.small else told.worst
     return {
         "episodes": len(told.episodes),

@@ -117,14 +117,20 @@ def _nearer(case: Shrinking, name: str) -> None:
     far, near = case.point.values[name], case.usual.get(name)
     if not isinstance(far, float) or not isinstance(near, float):
         return
+    if case.fails(case.point.values | {name: _short(far)}, case.point.seed):
+        far = _short(far)
     for _ in range(HALVINGS):
-        middle = float(f"{(near + far) / 2.0:.{DIGITS}g}")
-        if middle in (near, far):
+        middle = _short((near + far) / 2.0)
+        if not min(near, far) < middle < max(near, far):
             return
         if case.fails(case.point.values | {name: middle}, case.point.seed):
             far = middle
         else:
             near = middle
+
+
+def _short(value: float) -> float:
+    return float(f"{value:.{DIGITS}g}")
 
 
 def _with_other_seeds(case: Shrinking) -> tuple[int, int]:
