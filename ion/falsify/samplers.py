@@ -17,7 +17,8 @@ from numpy.typing import NDArray
 Floats = NDArray[np.float64]
 
 START = 7
-"""The middle and a scrambled Sobol sequence are looked at before the model begins."""
+"""The middle and a scrambled Sobol sequence are looked at before the model begins. One less than a
+power of two: only of so many is the sequence balanced."""
 MOST = 200
 """The model knows the lowest of so many costs; more only make it slow."""
 ANYWHERE, AROUND = 1024, 256
