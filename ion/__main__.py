@@ -15,6 +15,7 @@ COMMANDS = {
     "replay": "Run the present navigator on what a tape recorded, and compare what it says.",
     "calibrate": "Find the vehicle's mass, friction, steering and centre of gravity on a tape.",
     "compare": "Drive variants of one drive from the same moment on, and say where they part.",
+    "falsify": "Search what a scenario varies for a drive that fails, and make it simple.",
     "figures": "Draw the paper's figures 6.5 to 6.13 again, from our own runs, as one page.",
     "report": "Put one drive on a page: verdict, map, curves, events, and how to repeat it.",
     "route": "Say what a route file amounts to: lengths, limits, turns; and draw it.",

@@ -7,6 +7,8 @@ import signal
 import threading
 from collections.abc import Callable, Iterator, Sequence
 from concurrent.futures import FIRST_COMPLETED, Future, ProcessPoolExecutor, wait
+from contextlib import contextmanager
+from functools import partial
 from multiprocessing import connection
 from multiprocessing.synchronize import Event
 from typing import Any
@@ -35,21 +37,34 @@ def many(work: Work, seeds: Sequence[int], jobs: int) -> Iterator[Result]:
         `seed`, `outcome: error` and `message`. After Ctrl-C, `outcome: interrupted` for those
         never begun, and what the running ones give when they have stopped.
     """
+    with workers(min(jobs, len(seeds))) as drive:
+        yield from drive(work, seeds)
+
+
+@contextmanager
+def workers(jobs: int) -> Iterator[Callable[[Work, Sequence[int]], Iterator[Result]]]:
+    """As `many`, for who has more to drive when the first have ended: the processes stay."""
     fix_processor()
     context = multiprocessing.get_context("spawn")
     stop = context.Event()
-    pool = ProcessPoolExecutor(min(jobs, len(seeds)), context, _begin, (stop,))
+    pool = ProcessPoolExecutor(jobs, context, _begin, (stop,))
     try:
-        with interrupts() as caught:
-            pending = {pool.submit(_work, work, seed): seed for seed in seeds}
-            while pending:
-                if caught and not stop.is_set():
-                    stop.set()
-                    yield from _cancel(pending)
-                yield from _ended(pending)
+        yield partial(_drive, pool, stop)
     finally:
         stop.set()
         pool.shutdown(cancel_futures=True)
+
+
+def _drive(
+    pool: ProcessPoolExecutor, stop: Event, work: Work, seeds: Sequence[int]
+) -> Iterator[Result]:
+    with interrupts() as caught:
+        pending = {pool.submit(_work, work, seed): seed for seed in seeds}
+        while pending:
+            if caught and not stop.is_set():
+                stop.set()
+                yield from _cancel(pending)
+            yield from _ended(pending)
 
 
 def stop_asked() -> bool:

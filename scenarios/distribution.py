@@ -1,6 +1,7 @@
 """How a scenario varies a number from seed to seed."""
 
 from math import exp, log
+from statistics import NormalDist
 from typing import Any
 
 import msgspec
@@ -8,6 +9,8 @@ import msgspec
 from scenarios.things import generator
 
 Number = bool | int | float | str
+SIGMAS = 3.0
+"""Farther from its mean no quantile of a normal distribution lies."""
 
 
 class Distribution(msgspec.Struct, forbid_unknown_fields=True, frozen=True):
@@ -55,6 +58,22 @@ def draw(name: str, varied: Varied, seed: int) -> Number:
         return float(rng.normal(*varied.normal))
     assert varied.choice
     return varied.choice[int(rng.integers(len(varied.choice)))]
+
+
+def quantile(varied: Distribution, share: float) -> Number:
+    """The value below which a share of all draws lies, 0 to 1; a choice is in the order of its
+    values, and a normal distribution ends at three standard deviations."""
+    if varied.uniform:
+        low, high = varied.uniform
+        return low + share * (high - low)
+    if varied.log_uniform:
+        low, high = varied.log_uniform
+        return low * (high / low) ** share
+    if varied.normal:
+        tail = NormalDist().cdf(-SIGMAS)
+        return NormalDist(*varied.normal).inv_cdf(tail + share * (1.0 - 2.0 * tail))
+    assert varied.choice
+    return varied.choice[min(int(share * len(varied.choice)), len(varied.choice) - 1)]
 
 
 def values_of(varied: Varied) -> tuple[Number, ...]:

@@ -1,0 +1,1 @@
+"""`ion falsify`: where a scenario fails, and the simplest case of it."""
