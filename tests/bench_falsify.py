@@ -5,7 +5,7 @@ Each fault of `tests/planted` is searched ten times by what `ion falsify` does a
 random, each time with another seed of the search, until its first failed verdict. What the search
 finds is shrunk, written, read and driven again. A line for each search as it ends, then a table:
 medians, and how many shrunk cases still fail. All drives are kept: one that was stopped goes on
-where it was. An hour on one core.
+where it was. One to two hours on one core.
 """
 
 import sys
