@@ -67,8 +67,8 @@ class IonNavigator:
         self._ready_ns: int | None = None
         health = parameters.states.health
         sensors = (*parameters.vehicle.lidar_mounts, *health.devices)
-        self.plausibility = Plausibility(parameters.plausibility)
         scanners, radars = parameters.vehicle.lidar_mounts, parameters.vehicle.radars
+        self.plausibility = Plausibility(parameters.plausibility, scanners)
         self.health = HealthMonitor(health, sensors, tuple(radars), tuple(scanners))
 
     @property

@@ -23,6 +23,7 @@ from scenarios.parameter_files import parameters_of
 from twin.faults.spoiled import spoiled
 
 P = parameters_of("ion").plausibility
+MOUNTS = parameters_of("ion").vehicle.lidar_mounts
 SPEED_MPS = 5.0
 RATE_HZ = {
     LidarScan: 37.5, SonarScan: 20.0, RadarTracks: 15.0, GpsFix: 20.0, ImuSample: 100.0,
@@ -72,7 +73,7 @@ def message(kind, time_ns, rng):
 
 def drive(kind, seconds, spoil=lambda m: m, monitor=None, from_s=12.0):
     """Hear all sensors for some seconds, one kind of them spoiled; what is doubted then."""
-    monitor, rng, ego = monitor or Plausibility(P), np.random.default_rng(0), Straight()
+    monitor, rng, ego = monitor or Plausibility(P, MOUNTS), np.random.default_rng(0), Straight()
     ticks = range(round(from_s * 300), round((from_s + seconds) * 300))
     for k in ticks:
         for each, rate in RATE_HZ.items():
@@ -102,6 +103,16 @@ def test_a_spoiled_sensor_is_doubted_and_believed_again(kind, how):
     assert len(monitor.doubted) == 1
     drive(kind, 8.0, monitor=monitor, from_s=14.5)
     assert monitor.doubted == {}
+
+
+@pytest.mark.parametrize(("sees_m", "doubted"), [(40.0, False), (10.0, True)])
+def test_ground_that_is_grazed_far_ahead_may_step(sees_m, doubted):
+    """As the bumper's scanner at kilometre 165 of a race: 0.3 m, by a pitch of 0.2 mrad."""
+    rng, monitor = np.random.default_rng(2), Plausibility(P, MOUNTS)
+    for k in range(200):
+        range_m = sees_m + 0.3 * (k >= 100) + 0.006 * rng.standard_normal(361)
+        monitor.believes(LidarScan(k * 26_666_667, "lidar_bumper", range_m), Straight())
+    assert ("lidar_bumper" in monitor.doubted) == doubted
 
 
 def test_noisy_sonars_are_doubted_and_believed_again():

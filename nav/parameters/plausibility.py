@@ -23,6 +23,8 @@ class StepParameters:
     """Of so many beams, ..."""
     span: int
     """... over so many, ..."""
+    sway_rad: float
+    """... that a pitch of so much between two scans would not move as far, ..."""
     least_m: float
     """... the ranges change from one scan to the next by more ..."""
     alike_m: float

@@ -91,7 +91,7 @@ def rebuilt(navigator: IonNavigator, p: Parameters) -> IonNavigator:
     navigator.retune(p)
     navigator.ego.vehicle = p.vehicle
     navigator.obstacles = ObstacleMap(p.obstacle_map, p.vehicle)
-    navigator.plausibility = Plausibility(p.plausibility)
+    navigator.plausibility = Plausibility(p.plausibility, p.vehicle.lidar_mounts)
     navigator.high_level = HighLevelController(p, navigator.high_level.waypoints)
     navigator.low_level = LowLevelController(p.control, p.vehicle.steering)
     return navigator

@@ -5,6 +5,7 @@ half a second is as good as silent: the device is reset, and given up where that
 (section 6.3).
 """
 
+from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
 from typing import Any
 
@@ -24,6 +25,7 @@ from nav.messages import (
     device,
 )
 from nav.parameters.plausibility import EvidenceParameters, PlausibilityParameters
+from nav.parameters.vehicle import LidarMount
 
 CHECKS: dict[type, Any] = {
     GpsFix: Fixes, ImuSample: Gyro, VehicleState: Wheels, CompassHeading: Compass,
@@ -37,6 +39,7 @@ class Plausibility:
     """Hears every admitted message, and says which to believe. Picklable."""
 
     parameters: PlausibilityParameters
+    mounts: Mapping[str, LidarMount]
     _evidence: dict[str, Evidence] = field(default_factory=dict[str, Evidence])
     _checks: dict[str, Any] = field(default_factory=dict[str, Any])
     _others: Witnesses = field(default_factory=Witnesses)
@@ -68,7 +71,8 @@ class Plausibility:
     def _wrong(self, name: str, message: SensorMessage, ego: Ego) -> str | None:
         check = self._checks.get(name)
         if isinstance(message, LidarScan):
-            check = check or self._checks.setdefault(name, Scans(self.parameters.scan))
+            height_m = self.mounts[name].position_m[2]
+            check = check or self._checks.setdefault(name, Scans(self.parameters.scan, height_m))
             return check.wrong(message, ego)
         kind = CHECKS.get(type(message))
         if kind is None:

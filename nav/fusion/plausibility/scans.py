@@ -17,13 +17,15 @@ class Scans:
     """What one scanner said last, and when it was looked at closely."""
 
     parameters: ScanParameters
+    height_m: float
+    """Of the scanner above the ground."""
     range_m: Floats | None = None
     time_ns: int = 0
     steps: Steps = field(init=False)
     looked_ns: int = 0
 
     def __post_init__(self) -> None:
-        self.steps = Steps(self.parameters.step)
+        self.steps = Steps(self.parameters.step, self.height_m)
 
     def wrong(self, scan: LidarScan, ego: Ego) -> str | None:
         """Why a scan is implausible, or nothing; None where it is not looked at closely."""

@@ -1,14 +1,17 @@
 """By how much all ranges of a scanner have stepped: an offset has come, or gone.
 
 The world does not step. What the vehicle nears comes nearer scan by scan. Ground that is grazed in
-40 m moves by half a metre when the vehicle rises by 7 mm, and all of it alike, but it does so in
-one scan after the other: an offset is a step between scans that hardly change.
+40 m moves by half a metre when the vehicle rises by 7 mm, and all of it alike, but it mostly does
+so in one scan after the other: an offset is a step between scans that hardly change. Where ground
+is so far that half a degree a second for one scan moves it as much as an offset, it does step, once
+in a hundred miles; there beams do not count.
 """
 
 from collections import deque
 from collections.abc import Sequence
 from dataclasses import dataclass, field
 from itertools import pairwise
+from math import sqrt
 from typing import NamedTuple
 
 import numpy as np
@@ -35,15 +38,23 @@ class Steps:
     """Adds up the steps of one scanner."""
 
     parameters: StepParameters
+    height_m: float
+    """Of the scanner above the ground."""
     sum_m: float = 0.0
     """Of all steps so far: the offset, if it had none in the beginning."""
+    far_m: float = field(init=False)
+    """Ground this far ahead, R, comes nearer by R^2 / h for each radian of pitch: by a step."""
     _seen: deque[Seen] = field(default_factory=deque[Seen])
     """The latest, oldest first: as many before a step as after it."""
 
+    def __post_init__(self) -> None:
+        p = self.parameters
+        self.far_m = sqrt(p.least_m * self.height_m / p.sway_rad)
+
     def observe(self, range_m: Floats, way_m: float) -> None:
         """Take a scan, shape (n,) [m], and the way since the one before, [m]."""
-        seen = self._seen
-        seen.append(Seen(range_m[::EVERY], way_m))
+        seen, beams = self._seen, range_m[::EVERY]
+        seen.append(Seen(np.where(beams < self.far_m, beams, LIDAR_NO_RETURN_M), way_m))
         if len(seen) == 2 * self.parameters.quiet_scans:
             self.sum_m += step_m(tuple(seen), self.parameters)
             seen.popleft()
