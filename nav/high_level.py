@@ -128,6 +128,7 @@ class HighLevelController:
             far_goal_m=self._far_goal(boundaries) if troubled else (0.0, 0.0),
             turned_rad=turned,
             half_width_m=float(self.waypoints.half_width_m[self._segment]),
+            narrowest_m=self._narrowest(p.speed.settle_ahead_m),
             gear=senses.vehicle.gear if senses.vehicle else Gear.HIGH,
             shifting=bool(senses.vehicle and senses.vehicle.shifting),
             health=senses.health,
@@ -212,6 +213,11 @@ class HighLevelController:
         finish = end >= len(self.route.arc_m)
         last = int(self.route.segment[-1]) + 2 if finish else int(self.route.segment[end]) + 1
         return max(0, segment - behind), last
+
+    def _narrowest(self, ahead_m: float) -> float:
+        """The least half-width of the corridor from here on."""
+        first, last = self._corridor_segments(0, ahead_m)
+        return float(self.waypoints.half_width_m[first:last].min())
 
     def _decision(self, s: Situation, plan: Plan) -> Decision:
         return Decision(

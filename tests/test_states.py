@@ -14,6 +14,7 @@ from nav.planning.local_path import clear_distances
 from nav.planning.scanning import Boundaries
 from nav.states.machine import Machine
 from nav.states.memory import Memory
+from nav.states.path_point_keeping import bends_mps
 from nav.states.situation import Situation
 from nav.states.transitions import TRANSITIONS, room_again
 from nav.states.trouble import Trouble
@@ -74,6 +75,23 @@ def test_wall_across_stops_the_vehicle():
     m = Machine(P)
     plan = m.decide(situation((2.6, 4.0, -30.0, 30.0)))
     assert plan.speed_mps == 0.0
+
+
+def test_the_way_back_to_the_smooth_path_is_driven_no_faster_than_its_bends_allow():
+    turn = np.linspace(0.0, 1.5, 40)
+    bend = sampled(8.0 * np.column_stack([np.sin(turn), 1.0 - np.cos(turn)]))
+    p = P.planning.speed
+    assert bends_mps(bend, p) == pytest.approx(np.sqrt(8.0 * p.lateral_mps2), rel=0.03)
+    assert bends_mps(situation().route_ahead, p) > 20.0
+    plan = Machine(P).decide(replace(situation(), V0_mps=9.0, route_ahead=bend))
+    assert plan.speed_mps <= bends_mps(bend, p)
+
+
+def test_who_is_astray_makes_no_haste_towards_narrows():
+    s = replace(situation(), cross_track_m=0.8, half_width_m=3.7)
+    p = P.planning.speed
+    assert Machine(P).decide(s).speed_mps > p.settle_mps
+    assert Machine(P).decide(replace(s, narrowest_m=2.1)).speed_mps <= p.settle_mps
 
 
 def test_who_strays_deep_into_the_real_boundary_is_led_out_of_it():

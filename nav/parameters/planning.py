@@ -104,7 +104,9 @@ class SpeedProfileParameters:
     settle_rad: float
     """... in heading, where ..."""
     settle_half_width_m: float
-    """... the corridor is narrower than this to each side."""
+    """... the corridor is narrower than this to each side, ..."""
+    settle_ahead_m: float
+    """... here or within this way."""
 
 
 @dataclass(frozen=True)

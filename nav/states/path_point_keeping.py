@@ -2,10 +2,13 @@
 
 from math import inf, sqrt
 
+import numpy as np
+
 from nav.angles import wrapped
 from nav.messages import FollowPath
 from nav.parameters import Parameters
 from nav.parameters.planning import SpeedProfileParameters
+from nav.planning.curve import Curve
 from nav.planning.local_path import path_length, pathpoints
 from nav.planning.speed import set_point
 from nav.states.memory import Memory
@@ -24,14 +27,17 @@ def plan(s: Situation, memory: Memory, p: Parameters) -> Plan:
     assert memory.pathpoint_m is not None
     direction = float(s.route_ahead.heading_rad[min(4, len(s.route_ahead.heading_rad) - 1)])
     turn = abs(wrapped(direction - s.ego.heading_rad))
-    limit = min(s.V0_mps, _through_narrows(s, p), _settling(s, p.planning.speed))
+    speed = p.planning.speed
+    limit = min(
+        s.V0_mps, _through_narrows(s, p), _settling(s, speed), bends_mps(s.route_ahead, speed)
+    )
     clear = s.route_clear.real_m
     blocked = clear < s.route_ahead.arc_m[-1]  # the finish is no obstacle
     distance = clear if blocked else p.planning.local_path.look_ahead_m
-    speed = set_point(distance, distance, turn, limit, "safe", p.speed)
-    command = FollowPath(s.time_ns, memory.pathpoint_m, speed.speed_mps)
+    found = set_point(distance, distance, turn, limit, "safe", p.speed)
+    command = FollowPath(s.time_ns, memory.pathpoint_m, found.speed_mps)
     return Plan(
-        command, speed.speed_mps, direction, distance, distance, replanned=reason, by_rules=speed
+        command, found.speed_mps, direction, distance, distance, replanned=reason, by_rules=found
     )
 
 
@@ -39,7 +45,18 @@ def _settling(s: Situation, p: SpeedProfileParameters) -> float:
     """Beyond the paper: where the corridor leaves no room to swing, the vehicle comes back to the
     smooth path before it makes haste; the steering takes a second from side to side."""
     astray = abs(s.cross_track_m) > p.settle_m or abs(s.turned_rad) > p.settle_rad
-    return p.settle_mps if astray and s.half_width_m < p.settle_half_width_m else inf
+    return p.settle_mps if astray and s.narrowest_m < p.settle_half_width_m else inf
+
+
+def bends_mps(ahead: Curve, p: SpeedProfileParameters) -> float:
+    """Beyond the paper: V0 knows the bends of the route, not those of the way back to it. [m/s]
+
+    Args:
+        ahead: the path as it is joined from where the vehicle is.
+        p: lateral acceleration, and the braking that is counted on before each bend.
+    """
+    bend = p.lateral_mps2 / np.maximum(np.abs(ahead.curvature_per_m), 1e-4)
+    return sqrt(float((bend + 2.0 * p.braking_mps2 * ahead.arc_m).min()))
 
 
 def _through_narrows(s: Situation, p: Parameters) -> float:

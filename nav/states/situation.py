@@ -41,7 +41,9 @@ class Situation:
     far_goal_m: tuple[float, float] = (0.0, 0.0)
     """In trouble: the farthest point of the smooth path on the wide grid that is free."""
     half_width_m: float = FAR_M
-    """Of the corridor here."""
+    """Of the corridor here ..."""
+    narrowest_m: float = FAR_M
+    """... and where it is narrowest, as far as haste must end before it."""
     turned_rad: float = 0.0
     """How far left of the smooth path's heading the vehicle's is."""
     gear: Gear = Gear.HIGH
