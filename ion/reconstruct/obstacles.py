@@ -1,0 +1,70 @@
+"""From cells to things, as a scenario file places them."""
+
+from math import degrees
+
+import numpy as np
+
+from ion.reconstruct.groups import groups
+from ion.reconstruct.rectangles import LEAST_M, Rectangle, pieces, smallest
+from ion.reconstruct.tally import Tally
+from nav.messages import Floats
+from scenarios.planned import Thing
+
+KIND = "seen"
+"""What a thing is, nobody knows; that it was seen is sure."""
+NEAR_M = 10.0
+"""From the driven way: what is farther off was seen by few beams, and stands in nobody's way."""
+LEAST_RETURNS = 10
+"""Of a whole thing: less is a bird, a leaf, or dust."""
+LOW_M = 0.3
+"""No thing is lower: the map would not have taken it for one."""
+TOP_SHARE = 0.9
+"""Of the cells of a thing that end below its top: the rest are beams that met it half."""
+POST_M = 0.3
+"""What is no longer is taken for round."""
+
+
+def things(tally: Tally, way_m: Floats, cell_m: float) -> list[Thing]:
+    """What stood near the way, as boxes and posts.
+
+    Args:
+        tally: of what stood, see `ion.reconstruct.seen`.
+        way_m: where the vehicle was, shape (n, 2), route frame N.
+        cell_m: edge of a cell.
+    """
+    near = _near(tally, way_m)
+    found: list[Thing] = []
+    for group in groups(near.cell):
+        if near.returns[group].sum() >= LEAST_RETURNS:
+            parts = pieces(near.place_m[group], cell_m)
+            found += [_thing(near.place_m[group[p]], near.top_m[group[p]]) for p in parts]
+    return found
+
+
+def _near(tally: Tally, way_m: Floats) -> Tally:
+    """The cells near the way; cell by cell, as the whole table would not fit into memory."""
+    near = [bool((np.hypot(*(way_m - place).T) < NEAR_M).any()) for place in tally.place_m]
+    return tally.where(np.array(near, bool))
+
+
+def _thing(place_m: Floats, top_m: Floats) -> Thing:
+    rectangle = smallest(place_m)
+    height_m = max(float(np.quantile(top_m, TOP_SHARE)), LOW_M)
+    least = LEAST_M / 2.0
+    half = max(rectangle.half_length, least), max(rectangle.half_width, least)
+    return Thing(
+        kind=KIND,
+        at_m=(round(rectangle.x, 2), round(rectangle.y, 2)),
+        half_m=(round(half[0], 2), round(half[1], 2)),
+        height_m=round(height_m, 2),
+        yaw_deg=round(degrees(rectangle.heading), 1),
+        shape="cylinder" if 2.0 * rectangle.half_length <= POST_M else "box",
+        shift_m=0.0,
+    )
+
+
+def rectangle_of(thing: Thing) -> Rectangle:
+    """Its outline in plan view; of a post the square around it."""
+    x, y = thing.at_m
+    length, width = thing.half_m
+    return Rectangle(x, y, length, width, float(np.radians(thing.yaw_deg)))
