@@ -26,8 +26,8 @@ from scenarios.replay import Tick, route_of
 from scenarios.route import build
 from tape.reader import attachments, metadata, span_ns
 
-SLOWER = 2.0
-"""The time limit: so many times what the tape lasts, and no less than a route has."""
+SLOWER, MORE_S = 2.0, 300.0
+"""The time limit: so many times what the tape lasts, and more, and no less than a route has."""
 
 
 def reconstruct(options: Options) -> int:
@@ -96,7 +96,7 @@ def _write(found: Rebuilt, log: Path, route: tuple[str, str], where: Paths) -> N
 
     name, text = route
     course = build(text, name, None, None, 0)
-    limit_s = float(ceil(max(course.time_limit_s, SLOWER * found.evidence.end_s)))
+    limit_s = float(ceil(max(course.time_limit_s, SLOWER * found.evidence.end_s + MORE_S)))
     sentence = title(log, outcome(log), found.evidence.end_s)
     write_whole(where.route, text)
     write_whole(where.scenario, scenario_text(found, sentence, where.route.name, limit_s))

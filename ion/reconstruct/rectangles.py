@@ -12,12 +12,14 @@ from nav.messages import Floats
 LEAST_M = 0.2
 """No side is taken for less: a wall that one beam in ten meets has no thickness of its own."""
 SOLID_M = (5.0, 2.5)
-"""A thing that is no longer and no wider, as a car, is solid: its sides are seen, never its inside."""
+"""A thing that is no longer and no wider, as a car, is solid: nobody sees its inside."""
 FULL = 0.5
 """Share of any other rectangle that its points must cover ..."""
 WALL_M, PAYS = 0.8, 0.7
 """... but for what is no wider than this, and would not be smaller by more than so much in two: a
 wall, of which both faces are seen, or one."""
+STRAY = 0.04
+"""Share of the points that may lie outside of each long side."""
 TURNS = np.radians(np.arange(0.0, 90.0, 1.0))
 
 
@@ -38,15 +40,13 @@ class Rectangle(NamedTuple):
 
     def inside(self, point_m: Floats) -> Floats:
         """Points (n, 2) as seen from its middle, along its sides, shape (n, 2)."""
-        c, s = cos(self.heading), sin(self.heading)
-        return (point_m - (self.x, self.y)) @ np.array([[c, -s], [s, c]])
+        return turned(point_m - (self.x, self.y), self.heading)
 
     def corners_m(self) -> Floats:
         """Shape (4, 2), around it."""
-        c, s = cos(self.heading), sin(self.heading)
         signs = np.array([(1, 1), (-1, 1), (-1, -1), (1, -1)], dtype=float)
         half = signs * (self.half_length, self.half_width)
-        return half @ np.array([[c, s], [-s, c]]) + (self.x, self.y)
+        return turned(half, -self.heading) + np.array((self.x, self.y))
 
     def distance_m(self, point_m: Floats) -> Floats:
         """From its edge to points (n, 2), shape (n,); 0 inside."""
@@ -80,44 +80,61 @@ def _parted(point_m: Floats, cell_m: float) -> NDArray[np.bool_] | None:
     whole = smallest(point_m)
     if len(point_m) == 1 or len(point_m) * cell_m * cell_m >= FULL * whole.area_m2:
         return None
-    area, first = _cut(whole.inside(point_m))
+    area, first = _cut(point_m)
     straight = 2.0 * whole.half_width <= WALL_M and area > PAYS * whole.area_m2
     return None if straight else first
 
 
 def smallest(point_m: Floats) -> Rectangle:
-    """The smallest rectangle around points (n, 2)."""
-    c, s = np.cos(TURNS), np.sin(TURNS)
-    east, north = point_m.T
-    along = np.stack([np.outer(c, east) + np.outer(s, north),
-                      np.outer(c, north) - np.outer(s, east)])  # fmt: skip
-    low, high = along.min(axis=2), along.max(axis=2)
-    sides = high - low
-    best = int(np.argmin((sides[0] + LEAST_M) * (sides[1] + LEAST_M)))
-    (u, v), (length, width) = ((low + high)[:, best] / 2.0).tolist(), sides[:, best].tolist()
-    x, y = float(c[best] * u - s[best] * v), float(s[best] * u + c[best] * v)
+    """The smallest rectangle around points (n, 2), but for a few on its long sides.
+
+    It lies as most of the points want it: those of a drifting estimate would turn it, and widen it.
+    """
+    along = np.stack([turned(point_m, angle) for angle in TURNS.tolist()], axis=-1)
+    low, high = np.quantile(along, (STRAY, 1.0 - STRAY), axis=0)
+    sides = high - low + LEAST_M
+    best = int(np.argmin(sides[0] * sides[1]))
     heading = float(TURNS[best])
-    if width > length:
-        length, width, heading = width, length, heading + pi / 2.0
-    return Rectangle(x, y, length / 2.0, width / 2.0, heading)
+    if sides[1, best] > sides[0, best]:
+        heading += pi / 2.0
+    return _around(point_m, heading)
+
+
+def turned(point_m: Floats, angle_rad: float) -> Floats:
+    """Points (n, 2) in axes that are turned to the left."""
+    c, s = cos(angle_rad), sin(angle_rad)
+    return point_m @ np.array([[c, -s], [s, c]])
+
+
+def _around(point_m: Floats, heading: float) -> Rectangle:
+    """The rectangle that lies so."""
+    along, across = turned(point_m, heading).T
+    low, high = np.quantile(across, (STRAY, 1.0 - STRAY)).tolist()
+    first, last = float(along.min()), float(along.max())
+    x, y = turned(np.array([[first + last, low + high]]) / 2.0, -heading)[0].tolist()
+    return Rectangle(x, y, (last - first) / 2.0, (high - low) / 2.0, heading)
 
 
 def _is_small(whole: Rectangle) -> bool:
     return 2.0 * whole.half_length <= SOLID_M[0] and 2.0 * whole.half_width <= SOLID_M[1]
 
 
-def _cut(place_m: Floats) -> tuple[float, NDArray[np.bool_]]:
-    """The cut across one of the sides that leaves the least area in two.
+def _cut(point_m: Floats) -> tuple[float, NDArray[np.bool_]]:
+    """The straight cut that leaves the least area in two rectangles along it.
 
     Args:
-        place_m: points (n, 2) along the sides of their rectangle.
+        point_m: shape (n, 2), n at least 2.
 
     Returns:
         The area [m^2], and which of the points lie before the cut.
     """
-    cuts = [(*_least_area(place_m[:, axis], place_m[:, 1 - axis]), axis) for axis in (0, 1)]
-    area, at_m, axis = min(cuts)
-    return area, place_m[:, axis] < at_m
+    best, before = np.inf, np.zeros(len(point_m), bool)
+    for angle in (*TURNS[::3], *(TURNS[::3] + pi / 2.0)):
+        along, across = turned(point_m, float(angle)).T
+        area, at_m = _least_area(along, across)
+        if area < best:
+            best, before = area, along < at_m
+    return best, before
 
 
 def _least_area(along_m: Floats, across_m: Floats) -> tuple[float, float]:
