@@ -106,23 +106,28 @@ def recovering(fault: Fault, resets_s: Sequence[float]) -> Fault:
 
 def _row(gaps: Sequence[Fault]) -> Sequence[Fault]:
     """The silences from the first on that keep to one period. The first may be cut short, as the
-    fault began in the midst of it, and the last, as the tape ended."""
+    fault began in the midst of it, and the last, as the fault or the tape ended."""
     if len(gaps) < FLAPS:
         return ()
     period_s = gaps[2].begins - gaps[1].begins
     row = 1
     for one, other in pairwise(gaps):
-        if not _keeps(one, other, period_s):
+        if not _begins_on_time(one, other, period_s):
             break
         row += 1
+        if not _is_half(other, period_s):
+            break
     return gaps[:row]
 
 
-def _keeps(one: Fault, other: Fault, period_s: float) -> bool:
-    """Whether the second of two silences comes when the first says, each being half a period."""
-    off = other.begins - one.ends - 0.5 * period_s
-    long = min(other.ends, other.begins + 0.5 * period_s) - other.begins - 0.5 * period_s
-    return max(abs(off), abs(long)) < ALIKE * period_s
+def _begins_on_time(one: Fault, other: Fault, period_s: float) -> bool:
+    """Whether half a period of messages lies between two silences."""
+    return abs(other.begins - one.ends - 0.5 * period_s) < ALIKE * period_s
+
+
+def _is_half(gap: Fault, period_s: float) -> bool:
+    """Whether a silence lasts half a period."""
+    return abs(gap.ends - gap.begins - 0.5 * period_s) < ALIKE * period_s
 
 
 def _flapping(device: str, row: Sequence[Fault]) -> Fault:
