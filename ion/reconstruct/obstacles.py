@@ -1,6 +1,6 @@
 """From cells to things, as a scenario file places them."""
 
-from math import degrees
+from math import cos, degrees, sin
 
 import numpy as np
 
@@ -37,7 +37,7 @@ def things(tally: Tally, way_m: Floats, cell_m: float) -> list[Thing]:
     for group in groups(near.cell):
         if near.returns[group].sum() >= LEAST_RETURNS:
             parts = pieces(near.place_m[group], cell_m)
-            found += [_thing(near.place_m[group[p]], near.top_m[group[p]]) for p in parts]
+            found += [_thing(near.where(group[p]), way_m) for p in parts]
     return found
 
 
@@ -47,11 +47,10 @@ def _near(tally: Tally, way_m: Floats) -> Tally:
     return tally.where(np.array(near, bool))
 
 
-def _thing(place_m: Floats, top_m: Floats) -> Thing:
-    rectangle = smallest(place_m)
-    height_m = max(float(np.quantile(top_m, TOP_SHARE)), LOW_M)
-    least = LEAST_M / 2.0
-    half = max(rectangle.half_length, least), max(rectangle.half_width, least)
+def _thing(cells: Tally, way_m: Floats) -> Thing:
+    rectangle = thickened(smallest(cells.place_m), way_m)
+    height_m = max(float(np.quantile(cells.top_m, TOP_SHARE)), LOW_M)
+    half = max(rectangle.half_length, LEAST_M / 2.0), rectangle.half_width
     return Thing(
         kind=KIND,
         at_m=(round(rectangle.x, 2), round(rectangle.y, 2)),
@@ -61,6 +60,17 @@ def _thing(place_m: Floats, top_m: Floats) -> Thing:
         shape="cylinder" if 2.0 * rectangle.half_length <= POST_M else "box",
         shift_m=0.0,
     )
+
+
+def thickened(face: Rectangle, way_m: Floats) -> Rectangle:
+    """A thing of some thickness, of which a face was seen from the way (n, 2): it lies behind."""
+    more = LEAST_M / 2.0 - face.half_width
+    if more <= 0.0:
+        return face
+    nearest = way_m[np.hypot(*(way_m - (face.x, face.y)).T).argmin()]
+    away = -1.0 if face.inside(nearest[None])[0, 1] > 0.0 else 1.0
+    x, y = face.x - away * more * sin(face.heading), face.y + away * more * cos(face.heading)
+    return face._replace(x=x, y=y, half_width=LEAST_M / 2.0)
 
 
 def rectangle_of(thing: Thing) -> Rectangle:

@@ -33,8 +33,8 @@ class Tally(NamedTuple):
         """Where the returns of each cell ended on average, shape (n, 2)."""
         return self.total_m / self.returns[:, None]
 
-    def where(self, kept: NDArray[np.bool_]) -> "Tally":
-        """Those for which it is so, shape (n,)."""
+    def where(self, kept: NDArray[np.bool_] | Ints) -> "Tally":
+        """Those for which it is so, or those of some places in the tally."""
         return Tally(self.cell[kept], self.returns[kept], self.total_m[kept], self.top_m[kept])
 
 
