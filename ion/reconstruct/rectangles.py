@@ -18,7 +18,9 @@ FULL = 0.5
 WALL_M, PAYS = 0.8, 0.7
 """... but for what is no wider than this, and would not be smaller by more than so much in two: a
 wall, of which both faces are seen, or one."""
-STRAY = 0.04
+EDGE_M = 0.1
+"""So near to an edge is on it."""
+STRAY = 0.02
 """Share of the points that may lie outside of each long side."""
 TURNS = np.radians(np.arange(0.0, 90.0, 1.0))
 
@@ -86,14 +88,16 @@ def _parted(point_m: Floats, cell_m: float) -> NDArray[np.bool_] | None:
 
 
 def smallest(point_m: Floats) -> Rectangle:
-    """The smallest rectangle around points (n, 2), but for a few on its long sides.
+    """The smallest rectangle around points (n, 2), but for a few on its long sides: those of a
+    drifting estimate would turn it, and widen it.
 
-    It lies as most of the points want it: those of a drifting estimate would turn it, and widen it.
+    Of two sides of a box, the rectangle along their ends is no larger than that along the sides; so
+    it counts as well how near the points are to its edges (Zhang et al. 2017, L-shape fitting).
     """
     along = np.stack([turned(point_m, angle) for angle in TURNS.tolist()], axis=-1)
-    low, high = np.quantile(along, (STRAY, 1.0 - STRAY), axis=0)
-    sides = high - low + LEAST_M
-    best = int(np.argmin(sides[0] * sides[1]))
+    low, high = _most(along)
+    sides, gap = high - low + LEAST_M, np.minimum(np.abs(along - low), np.abs(high - along))
+    best = int(np.argmin(sides[0] * sides[1] * (gap.min(axis=1).mean(axis=0) + EDGE_M)))
     heading = float(TURNS[best])
     if sides[1, best] > sides[0, best]:
         heading += pi / 2.0
@@ -106,10 +110,16 @@ def turned(point_m: Floats, angle_rad: float) -> Floats:
     return point_m @ np.array([[c, -s], [s, c]])
 
 
+def _most(place_m: Floats) -> tuple[Floats, Floats]:
+    """From where to where places lie, along the first axis, but for the strays."""
+    low = np.quantile(place_m, STRAY, axis=0, method="lower")
+    return low, np.quantile(place_m, 1.0 - STRAY, axis=0, method="higher")
+
+
 def _around(point_m: Floats, heading: float) -> Rectangle:
     """The rectangle that lies so."""
     along, across = turned(point_m, heading).T
-    low, high = np.quantile(across, (STRAY, 1.0 - STRAY)).tolist()
+    low, high = (float(v) for v in _most(across))
     first, last = float(along.min()), float(along.max())
     x, y = turned(np.array([[first + last, low + high]]) / 2.0, -heading)[0].tolist()
     return Rectangle(x, y, (last - first) / 2.0, (high - low) / 2.0, heading)
