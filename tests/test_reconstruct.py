@@ -351,7 +351,7 @@ def test_a_tape_becomes_a_scenario(monkeypatch, capsys, tmp_path):
     (fault,) = read_scenario(out).faults
     assert parse(fault, ["radar"]).begins == pytest.approx(2.0, abs=0.05)
     assert out.with_suffix(".png").read_bytes().startswith(b"\x89PNG")
-    assert "ended timeout after 3 s" in read_scenario(out).title
+    assert "timeout after 3 s" in read_scenario(out).title
 
 
 @pytest.mark.slow

@@ -73,8 +73,8 @@ def outcome(log: Path) -> str:
 
 def title(log: Path, ended: str, end_s: float) -> str:
     """Of the scenario: a sentence."""
-    how = "stops" if ended == "unknown" else f"ended {ended}"
-    return f"Rebuilt from the tape {log.resolve().stem}, which {how} after {end_s:.0f} s."
+    how = f"ends after {end_s:.0f} s" if ended == "unknown" else f"{ended} after {end_s:.0f} s"
+    return f"Rebuilt from the tape {log.resolve().stem}: {how}."
 
 
 def _check(log: Path) -> None:

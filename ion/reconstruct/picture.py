@@ -14,7 +14,9 @@ from nav.route.rddf import Route
 from nav.route.waypoints import route_frame, waypoints_of
 from scenarios.planned import Thing
 
-WIDTH_IN, HEIGHT_IN, LEAST_IN = 13.0, 12.0, 4.0
+WIDTH_IN, HEIGHT_IN = 13.0, 12.0
+LEAST_SHARE = 0.25
+"""Of the longer side of the map, for the shorter."""
 MARGIN_M = 12.0
 EDGE_M = 0.3
 """Of the corridor."""
@@ -36,18 +38,21 @@ def draw(found: Rebuilt, route: Route, title: str) -> Figure:
     _draw_faults(axes, found)
     axes.set(xlim=(low[0], high[0]), ylim=(low[1], high[1]), aspect="equal")
     _frame(axes, title)
+    figure.legend(loc="outside lower center", ncols=5, frameon=False, fontsize=8.5, labelcolor=INK)
     return figure
 
 
 def _box(waypoint_m: Floats, found: Rebuilt) -> tuple[Floats, Floats]:
     """All that was driven; of a route that was not finished, not the rest."""
     points = np.vstack([found.evidence.way_m, waypoint_m[:1]])
-    return points.min(axis=0) - MARGIN_M, points.max(axis=0) + MARGIN_M
+    low, high = points.min(axis=0) - MARGIN_M, points.max(axis=0) + MARGIN_M
+    more = np.maximum(LEAST_SHARE * (high - low)[::-1] - (high - low), 0.0) / 2.0
+    return low - more, high + more
 
 
 def _height_in(low: Floats, high: Floats) -> float:
     width, height = (high - low).tolist()
-    return min(max(WIDTH_IN * height / width + 1.0, LEAST_IN), HEIGHT_IN)
+    return min(0.93 * WIDTH_IN * height / width + 1.3, HEIGHT_IN)
 
 
 def _draw_things(axes: Axes, things: list[Thing]) -> None:
@@ -55,7 +60,7 @@ def _draw_things(axes: Axes, things: list[Thing]) -> None:
     axes.add_collection(
         PolyCollection(
             shapes, facecolors=SEEN, edgecolors=SEEN, linewidths=THICK_PX, zorder=4,
-            label=f"{len(things)} things, as they were seen",
+            label="things, as they were seen",
         )
     )  # fmt: skip
 
@@ -87,5 +92,3 @@ def _frame(axes: Axes, title: str) -> None:
     axes.set_xlabel("m east of the first waypoint", color=INK, fontsize=9)
     axes.set_ylabel("m north", color=INK, fontsize=9)
     axes.set_title(title, loc="left", color=INK, fontsize=11.5, fontweight="bold")
-    axes.legend(loc="upper center", bbox_to_anchor=(0.5, -0.09), ncols=5, frameon=False,
-                fontsize=8.5, labelcolor=INK)  # fmt: skip
