@@ -44,7 +44,7 @@ def returns(*faces, height_m=1.0, many=50):
 
 def found(*faces, way_m=STRAIGHT, **more):
     tally = counted(returns(*faces, **more), CELL_M)
-    return things(standing(tally, tally.cell), way_m, CELL_M)
+    return things(tally, tally.cell, way_m, CELL_M)
 
 
 # ---------------------------------------------------------------- cells
@@ -64,15 +64,12 @@ def test_tallies_add_up():
     assert whole.returns.sum() == place.shape[1]
 
 
-def test_strays_beside_a_thing_are_none_and_a_forgotten_face_is_one():
-    tally = Tally(
-        cell_of(np.array([0, 0, 0, 0, 9]), np.array([0, 1, 2, 3, 0])),
-        np.array([1000.0, 990.0, 20.0, 900.0, 500.0]),
-        np.zeros((5, 2)),
-        np.ones(5),
-    )
-    held = tally.cell[[0, 1, 2]]
-    np.testing.assert_array_equal(standing(tally, held).returns, [1000.0, 990.0, 900.0])
+def test_strays_before_a_face_are_none_its_top_is_and_a_forgotten_face_too():
+    returns_m = np.array([20.0, 1000.0, 21.0, 2.0, 900.0, 500.0])
+    cell = cell_of(np.array([0, 1, 2, 3, 4, 9]), np.zeros(6, np.int64))
+    tally = Tally(cell, returns_m, np.zeros((6, 2)), np.ones(6))
+    found = standing(tally, cell[:4], 0.2 * np.arange(6.0))
+    np.testing.assert_array_equal(found.returns, [1000.0, 21.0, 900.0])
 
 
 # ---------------------------------------------------------------- rectangles
@@ -116,7 +113,7 @@ def test_a_face_lies_where_it_was_seen_and_the_thing_behind_it():
 def test_what_is_far_or_hardly_seen_is_left_out():
     assert found(((10, 15), (12, 15))) == []
     tally = counted(np.array([[5.0, 5.0], [1.0, 1.0], [0.5, 0.5]]), CELL_M)
-    assert things(standing(tally, tally.cell), STRAIGHT, CELL_M) == []
+    assert things(tally, tally.cell, STRAIGHT, CELL_M) == []
     assert found(((5.02, 2.02), (5.06, 2.02)))[0].shape == "cylinder"
 
 
@@ -223,7 +220,17 @@ FAULTS = [Fault("radar", "silent", 12.5, recovers_s=90.0), Fault("sonar", "late"
 def told(unfixed=(), doubted=()):
     tally = counted(np.zeros((3, 0)), CELL_M)
     return Evidence(
-        END_S, np.array([0.0]), STRAIGHT[:1], tally, CELL_M, {}, {}, [*unfixed], [*doubted], ()
+        END_S,
+        np.array([0.0]),
+        STRAIGHT[:1],
+        tally,
+        tally.cell,
+        CELL_M,
+        {},
+        {},
+        [*unfixed],
+        [*doubted],
+        (),
     )
 
 

@@ -12,7 +12,7 @@ import numpy as np
 from ion.reconstruct.seen import Seen
 from ion.reconstruct.stream import Listener, Stream
 from ion.reconstruct.stretches import Stretch, Stretches
-from ion.reconstruct.tally import Tally
+from ion.reconstruct.tally import Ints, Tally
 from nav.messages import RESET, DirectCommand, EgoEstimate, Floats, GpsFix, GpsQuality, device
 from nav.navigator import IonNavigator
 from scenarios.replay import Tick, navigator_of, replay
@@ -28,8 +28,11 @@ class Evidence(NamedTuple):
     way_m: Floats
     """... and where the vehicle believed to be, shape (n, 2)."""
     tally: Tally
+    """Where beams met obstacles."""
+    held: Ints
+    """Numbers of the cells that the map held when it saw them last."""
     cell_m: float
-    """Edge of its cells."""
+    """Edge of a cell."""
     streams: dict[str, Stream]
     """By device; of what was never heard there is none."""
     resets_s: dict[str, list[float]]
@@ -89,13 +92,13 @@ class Witness:
 
     def evidence(self) -> Evidence:
         """All of it."""
-        health = self._navigator.health
+        health, obstacles = self._navigator.health, self._navigator.obstacles
         return Evidence(
             self._end_s,
             np.array(self._time_s),
             np.array(self._way).reshape(-1, 2),
-            self._seen.tally(self._navigator.obstacles),
-            self._navigator.obstacles.cell_m,
+            *self._seen.all(obstacles),
+            obstacles.cell_m,
             {name: each.stream(self._start_ns) for name, each in self._heard.items()},
             self._resets,
             self._unfixed.all(),

@@ -6,7 +6,8 @@ import numpy as np
 
 from ion.reconstruct.groups import groups
 from ion.reconstruct.rectangles import LEAST_M, Rectangle, pieces, smallest
-from ion.reconstruct.tally import Tally
+from ion.reconstruct.standing import standing
+from ion.reconstruct.tally import Ints, Tally
 from nav.messages import Floats
 from scenarios.planned import Thing
 
@@ -24,15 +25,17 @@ POST_M = 0.3
 """What is no longer is taken for round."""
 
 
-def things(tally: Tally, way_m: Floats, cell_m: float) -> list[Thing]:
+def things(tally: Tally, held: Ints, way_m: Floats, cell_m: float) -> list[Thing]:
     """What stood near the way, as boxes and posts.
 
     Args:
-        tally: of what stood, see `ion.reconstruct.seen`.
+        tally: where beams met obstacles.
+        held: numbers of the cells that the map held when it saw them last.
         way_m: where the vehicle was, shape (n, 2), route frame N.
         cell_m: edge of a cell.
     """
-    near = _near(tally, way_m)
+    away_m = _away_m(tally, way_m)
+    near = standing(tally.where(away_m < NEAR_M), held, away_m[away_m < NEAR_M])
     found: list[Thing] = []
     for group in groups(near.cell):
         if near.returns[group].sum() >= LEAST_RETURNS:
@@ -41,10 +44,10 @@ def things(tally: Tally, way_m: Floats, cell_m: float) -> list[Thing]:
     return found
 
 
-def _near(tally: Tally, way_m: Floats) -> Tally:
-    """The cells near the way; cell by cell, as the whole table would not fit into memory."""
-    near = [bool((np.hypot(*(way_m - place).T) < NEAR_M).any()) for place in tally.place_m]
-    return tally.where(np.array(near, bool))
+def _away_m(tally: Tally, way_m: Floats) -> Floats:
+    """From the way, of each cell; one by one, as the whole table would not fit into memory."""
+    nearest = [float(np.square(way_m - place).sum(axis=1).min()) for place in tally.place_m]
+    return np.sqrt(np.array(nearest, dtype=np.float64))
 
 
 def _thing(cells: Tally, way_m: Floats) -> Thing:

@@ -25,7 +25,7 @@ class Rebuilt(NamedTuple):
 
 def rebuilt(evidence: Evidence) -> Rebuilt:
     """Things along the way, and faults of each device, in the order in which they began."""
-    found = things(evidence.tally, evidence.way_m, evidence.cell_m)
+    found = things(evidence.tally, evidence.held, evidence.way_m, evidence.cell_m)
     return Rebuilt(found, _faults(evidence), evidence)
 
 

@@ -7,7 +7,6 @@ dropped by then. Returns tell where in a cell a thing is, and how high.
 
 import numpy as np
 
-from ion.reconstruct.standing import standing
 from ion.reconstruct.tally import Ints, Tally, cell_of, counted, merged, row_column
 from nav.fusion.obstacle_map import ObstacleMap
 from nav.messages import Floats
@@ -32,10 +31,10 @@ class Seen:
         if len(self._new) == EVERY:
             self._settle(obstacles)
 
-    def tally(self, obstacles: ObstacleMap) -> Tally:
-        """All that stood, at the end of the tape."""
+    def all(self, obstacles: ObstacleMap) -> tuple[Tally, Ints]:
+        """All returns, and the numbers of the cells that the map held at last."""
         self._settle(obstacles)
-        return standing(merged(self._parts), self._held)
+        return merged(self._parts), self._held
 
     def _settle(self, obstacles: ObstacleMap) -> None:
         if self._new:
