@@ -28,6 +28,12 @@ class Thing(msgspec.Struct, forbid_unknown_fields=True, frozen=True):
     seen_by: str = ""
     """Of a phantom: the one scanner that sees it."""
 
+    def __post_init__(self) -> None:
+        if min(self.half_m) <= 0.0:
+            raise ValueError(f"expected half_m above 0, found {self.half_m}")
+        if self.height_m <= self.bottom_m:
+            raise ValueError(f"expected height_m above bottom_m, found {self.height_m:g}")
+
 
 def obstacle(k: int, thing: Thing, ground: Terrain, seed: int) -> Obstacle:
     """The k-th thing of a file, as `seed` moves it."""

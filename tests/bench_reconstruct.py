@@ -13,11 +13,11 @@ from collections.abc import Sequence
 from pathlib import Path
 from typing import Any, NamedTuple
 
-import numpy as np
-
 from scenarios.processor import fix_processor
 
-fix_processor()
+fix_processor()  # before numpy loads
+
+import numpy as np  # noqa: E402
 
 from ion.courses import scenario_source  # noqa: E402
 from ion.job import Job  # noqa: E402

@@ -309,6 +309,8 @@ def test_things_stand_beside_what_the_seed_draws(tmp_path):
         ('course = "nqe"\n' + PLACED, "with a route only"),
         ('route = "r.rddf"\nbumps = -1.0\n', "0 or more"),
         ('route = "r.rddf"\nthings = [{ kind = "x", at = [1, 2] }]\n', "at"),
+        ('route = "r.rddf"\n' + PLACED.replace("[0.3, 0.3]", "[0.3, 0]"), "half_m above 0"),
+        ('route = "r.rddf"\n' + PLACED.replace("shift_m = 0.0", "height_m = -1.0"), "above bottom"),
     ],
 )
 def test_a_wrong_world_is_refused(lines, expected, tmp_path):
