@@ -17,6 +17,7 @@ COMMANDS = {
     "compare": "Drive variants of one drive from the same moment on, and say where they part.",
     "falsify": "Search what a scenario varies for a drive that fails, and make it simple.",
     "figures": "Draw the paper's figures 6.5 to 6.13 again, from our own runs, as one page.",
+    "reconstruct": "Make a scenario from a tape: route, obstacles as they were seen, faults.",
     "report": "Put one drive on a page: verdict, map, curves, events, and how to repeat it.",
     "route": "Say what a route file amounts to: lengths, limits, turns; and draw it.",
     "scenarios": "List what can be driven by name, and what one's own scenario files say.",

@@ -57,6 +57,20 @@ def navigator_of(path: Path, instead: Mapping[str, str] = NOTHING) -> IonNavigat
         raise TapeError(f"{path}: its files do not make a navigator: {error}") from error
 
 
+def route_of(path: Path) -> tuple[str, str]:
+    """The route attached to a tape: its name and its text.
+
+    Raises:
+        TapeError: no tape, or none is attached.
+    """
+    files = {name: data.decode() for name, data in attachments(path).items()}
+    try:
+        name = _route_name(files, metadata(path).get("vehicle", ION))
+    except NavError as error:
+        raise TapeError(f"{path}: {error}") from error
+    return name, files[name]
+
+
 def _route_name(files: dict[str, str], vehicle: str) -> str:
     """The route is attached under its own name: the first that is not known otherwise."""
     others = [name for name in files if name not in (*files_of(vehicle), SCENARIO)]

@@ -9,8 +9,9 @@
     outcome = "finished"
     min_clearance_m = { least = 0.3 }
 
-With `course = "trial"` the file holds the whole course, as those of the trials do
-(`scenarios.trial.plan`).
+With a `route`, the file may place `things` along it, and leave out what the seed would draw there
+(`roadside = false`, `bumps = 0.0`). With `course = "trial"` it holds the whole course, as those of
+the trials do (`scenarios.trial.plan`).
 """
 
 import tomllib
@@ -32,6 +33,7 @@ from scenarios.distribution import Number, Varied, draw, values_of
 from scenarios.episode import Episode
 from scenarios.failing import failing
 from scenarios.figure_names import check_figure
+from scenarios.planned import Thing
 from scenarios.scenario import check_options, load_scenario, scenario_names
 from scenarios.settings import begin, check
 from scenarios.toml_place import PlacedError, converted, place
@@ -46,6 +48,8 @@ COMMON = ("title", "course", "faults", "ablate", "time_limit_s", "vary", "verdic
 """What files of trials and others have alike ..."""
 ALSO_TRIAL = ("title", "course", "time_limit_s")
 """... and what of it belongs to the course of a trial, too."""
+ONLY_ROUTE = {"things": (), "roadside": True, "bumps": 1.0}
+"""What only files with a route may change."""
 ARRIVED: dict[str, Expected] = {"outcome": "finished"}
 """What is asked of a drive where a file asks nothing."""
 
@@ -74,6 +78,12 @@ class Said(msgspec.Struct, forbid_unknown_fields=True, frozen=True):
     """See `scenarios.ablation`."""
     time_limit_s: float | None = None
     """Instead of the course's own."""
+    things: tuple[Thing, ...] = ()
+    """Along a route, in metres east and north of its first waypoint."""
+    roadside: bool = True
+    """Of a route: whether the seed puts things beside the track, too."""
+    bumps: float = 1.0
+    """Of a route: factor on the height of its rolling ground."""
     vary: dict[str, Varied] = {}
     """By the names of `scenarios.settings`."""
     verdicts: dict[str, Expected] = {}
@@ -119,7 +129,8 @@ class ScenarioFile(Said, frozen=True):
             return course_of(self.name, self.trial, seed)
         if self.route:
             route = import_module("scenarios.route")
-            return route.build(self.route_text, self.route, self.first, self.last, seed)
+            given = route.Surroundings(self.things, self.roadside, self.bumps)
+            return route.build(self.route_text, self.route, self.first, self.last, seed, given)
         return import_module(f"scenarios.{self.course}.course").build(seed, **self.options)
 
     def episode(self, seed: int, parameters: Parameters | None = None) -> Episode:
@@ -220,6 +231,11 @@ def checked(scenario: ScenarioFile) -> ScenarioFile:
         raise PlacedError(
             ("course",) if scenario.course else ("title",), "expected a course or a route"
         )
+    for key, usual in ONLY_ROUTE.items():
+        if scenario.course and getattr(scenario, key) != usual:
+            raise PlacedError((key,), "expected with a route only")
+    if scenario.bumps < 0.0:
+        raise PlacedError(("bumps",), f"expected 0 or more, found {scenario.bumps:g}")
     if scenario.course and scenario.course not in (*scenario_names(), TRIAL):
         known = ", ".join((*scenario_names(), TRIAL))
         raise PlacedError(("course",), f"{scenario.course!r} is unknown; there are {known}")

@@ -92,6 +92,9 @@ class ObstacleMap:
         self._sonar_arcs = _sonar_arcs(vehicle)
         self._sonar_min_m = vehicle.sonar.min_range_m
         self._footprint = _footprint(vehicle.outline, parameters.cell_m)
+        self.returns_m: Floats = np.zeros((3, 0))
+        """Where the returns of obstacles ended in the last tick, shape (3, n): east, north, height
+        above the reference point. For those who look on."""
         self._bare = _NOWHERE
         """Cells in which a steep beam has met ground in this tick."""
         self._time_ns: int | None = None
@@ -163,6 +166,7 @@ class ObstacleMap:
         """
         chosen = self._newest(sweeps)
         if not chosen:
+            self.returns_m = np.zeros((3, 0))
             return
         time_ns, pose = chosen[-1].scan.time_ns, chosen[-1].pose
         self._follow(pose)
@@ -173,6 +177,7 @@ class ObstacleMap:
         expect = expected(self.ground, self._negative) if self._negative.enabled and steep else None
         lower = drops(views.only(list(range(len(steep)))), expect, pose) if expect else NOTHING
         hits, points = self._mark(views, len(steep), pose, expect)
+        self.returns_m = points
         self._gather(hits, points, echoes)
         newest = {sensor: k for k, sensor in enumerate(sensors)}
         self._decay(views.only(list(newest.values())), self._elapsed_s(time_ns))

@@ -1,5 +1,5 @@
 """Any route definition file as a course."""
 
-from scenarios.route.course import build
+from scenarios.route.course import Surroundings, build
 
-__all__ = ["build"]
+__all__ = ["Surroundings", "build"]

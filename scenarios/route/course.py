@@ -1,15 +1,18 @@
 """A stretch of any route definition file, with ground and obstacles that the seed draws."""
 
 from math import atan2
+from typing import NamedTuple
 
 import numpy as np
 
 from nav.route import rddf
 from scenarios.course import Course, Floats, route_points_m
+from scenarios.planned import Thing
+from scenarios.route.placed import joined, moved, placed
 from scenarios.route.roadside import scenery
 from scenarios.things import generator
 from twin.terrain import Octave, RollingGround
-from twin.world import World
+from twin.world import Scenery, Terrain, World
 
 DESERT = (Octave(160.0, 2.0), Octave(32.0, 0.16), Octave(6.0, 0.02))
 """Estimated: rougher than the NQE's ground."""
@@ -24,7 +27,29 @@ SKY = np.radians(
 """Azimuth counter-clockwise from east and elevation: a GPS sky."""
 
 
-def build(text: str, name: str, first: int | None, last: int | None, seed: int) -> Course:
+class Surroundings(NamedTuple):
+    """What is given of the world along a route; the seed draws the rest."""
+
+    things: tuple[Thing, ...] = ()
+    """Placed in metres east and north of the file's first waypoint."""
+    roadside: bool = True
+    """Whether the seed puts rocks, brush, posts and bales beside the track."""
+    bumps: float = 1.0
+    """Factor on the height of the rolling ground; 0 is a plane."""
+
+
+DRAWN = Surroundings()
+"""All by the seed."""
+
+
+def build(
+    text: str,
+    name: str,
+    first: int | None,
+    last: int | None,
+    seed: int,
+    given: Surroundings = DRAWN,
+) -> Course:
     """A stretch of a route file, as `seed` draws the world there.
 
     Args:
@@ -32,6 +57,8 @@ def build(text: str, name: str, first: int | None, last: int | None, seed: int) 
         name: the route file's name, for messages.
         first: waypoint number where the stretch begins; None is the route's first.
         last: waypoint number where it ends; None is the route's last.
+        seed: draws what is not given.
+        given: what is.
 
     Raises:
         RouteError: not a route file, or a stretch that it does not have.
@@ -42,7 +69,11 @@ def build(text: str, name: str, first: int | None, last: int | None, seed: int) 
     route = whole.stretch(first, last)
     anchor = float(route.latitude_deg[0]), float(route.longitude_deg[0])
     waypoint_m = route_points_m(route, anchor)
-    ground = RollingGround(seed, DESERT)
+    corridor = waypoint_m, route.half_width_m
+    waves = tuple(Octave(o.wavelength_m, o.amplitude_m * given.bumps) for o in DESERT)
+    ground = RollingGround(seed, waves)
+    origin = float(whole.latitude_deg[0]), float(whole.longitude_deg[0])
+    things = moved(given.things, origin, anchor)
     world = World(
         terrain=ground,
         obstacles=(),
@@ -50,7 +81,7 @@ def build(text: str, name: str, first: int | None, last: int | None, seed: int) 
         anchor=anchor,
         start=_start(waypoint_m),
         satellites=SKY,
-        scenery=scenery(seed, ground, waypoint_m, route.half_width_m),
+        scenery=_scenery(seed, ground, things, corridor if given.roadside else None),
     )
     return Course(
         name="route",
@@ -64,6 +95,16 @@ def build(text: str, name: str, first: int | None, last: int | None, seed: int) 
         speed_mps=route.speed_mps,
         time_limit_s=_time_limit_s(waypoint_m, route.speed_mps),
     )
+
+
+def _scenery(
+    seed: int, ground: Terrain, things: tuple[Thing, ...], corridor: tuple[Floats, Floats] | None
+) -> Scenery:
+    """What is placed there, and, along a corridor, what the seed draws."""
+    if corridor is None:
+        return placed(seed, ground, things)
+    drawn = scenery(seed, ground, *corridor)
+    return joined(drawn, placed(seed, ground, things)) if things else drawn
 
 
 def _start(waypoint_m: Floats) -> tuple[float, float, float]:

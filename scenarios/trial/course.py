@@ -1,7 +1,6 @@
 """A trial as a course: flat rolling ground, what its plan puts there, and a sky."""
 
 from collections.abc import Callable
-from dataclasses import replace
 from math import atan2, radians
 
 import numpy as np
@@ -9,14 +8,14 @@ import numpy as np
 from nav.route import rddf
 from scenarios.course import FOOT_M, Course, Patience, route_points_m
 from scenarios.failing import failing
-from scenarios.geometry import Pose
+from scenarios.planned import obstacle
 from scenarios.route.course import SKY
-from scenarios.things import Site, generator
-from scenarios.trial.plan import Edge, Thing, Trial, load
+from scenarios.things import generator
+from scenarios.trial.plan import Edge, Trial, load
 from twin.earth import to_geodetic
 from twin.landforms import DropOff, Landform, Pit
 from twin.terrain import GENTLE, Octave, RollingGround
-from twin.world import Obstacle, Road, World
+from twin.world import Road, World
 
 ANCHOR_DEG = (34.05, -117.6)
 """Somewhere in the desert (estimated: any place would do)."""
@@ -41,7 +40,7 @@ def course_of(name: str, trial: Trial, seed: int) -> Course:
     ground = _ground(trial, seed)
     world = World(
         terrain=ground,
-        obstacles=tuple(_obstacle(k, t, ground, seed) for k, t in enumerate(trial.things)),
+        obstacles=tuple(obstacle(k, t, ground, seed) for k, t in enumerate(trial.things)),
         friction=trial.friction,
         anchor=ANCHOR_DEG,
         start=_start(trial),
@@ -89,18 +88,6 @@ def _drop(k: int, edge: Edge, seed: int) -> DropOff:
     left = -(by - ay) / length * shift, (bx - ax) / length * shift
     start, end = ((x + left[0], y + left[1]) for x, y in (edge.from_m, edge.to_m))
     return DropOff(start, end, edge.depth_m)
-
-
-def _obstacle(k: int, thing: Thing, ground: RollingGround, seed: int) -> Obstacle:
-    east, north = generator(seed, f"thing_{k}").uniform(-thing.shift_m, thing.shift_m, 2)
-    x, y = thing.at_m[0] + float(east), thing.at_m[1] + float(north)
-    pose = Pose(x, y, radians(thing.yaw_deg))
-    site = Site(f"{thing.kind}_{k}", thing.kind, ground, pose)
-    if thing.shape == "cylinder":
-        stands = site.cylinder("", pose, thing.half_m[0], thing.height_m)
-    else:
-        stands = site.box("", pose, thing.half_m, thing.height_m, thing.bottom_m)
-    return replace(stands, seen_by=thing.seen_by)
 
 
 def _start(trial: Trial) -> tuple[float, float, float]:

@@ -1,35 +1,14 @@
 """`scenario.toml` of a trial: one short course that puts the navigator to one test."""
 
 from importlib import resources
-from typing import Literal
 
 import msgspec
 
-from scenarios.things import SUNK_M
-
-Point = tuple[float, float]
+from scenarios.planned import Point, Thing
 
 
 class _Strict(msgspec.Struct, forbid_unknown_fields=True, frozen=True):
     pass
-
-
-class Thing(_Strict, frozen=True):
-    """A box or a cylinder; the seed moves it."""
-
-    kind: str
-    at_m: Point
-    half_m: Point
-    """Half length and half width; of a cylinder its radius, twice."""
-    height_m: float = 1.2
-    bottom_m: float = -SUNK_M
-    """Of a box: above 0 for what hangs."""
-    yaw_deg: float = 0.0
-    shape: Literal["box", "cylinder"] = "box"
-    shift_m: float = 0.3
-    """The seed moves it by at most this, along x and y."""
-    seen_by: str = ""
-    """Of a phantom: the one scanner that sees it."""
 
 
 class Hole(_Strict, frozen=True):

@@ -1,0 +1,49 @@
+"""The arguments of `ion reconstruct`, as typed, and what is wrong with them."""
+
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Annotated, NamedTuple
+
+from tyro.conf import Positional, arg
+
+from ion.errors import UsageError
+from ion.out_file import check_file
+
+SUFFIX = ".toml"
+
+
+@dataclass(frozen=True)
+class Options:
+    """Which tape, and where its scenario goes."""
+
+    log: Annotated[Positional[Path], arg(metavar="LOG")]
+    """A tape of --log full or inputs, the twin's or the truck's, or the folder of a long drive."""
+    out: Annotated[Path | None, arg(metavar="FILE")] = None
+    """Where the scenario goes (TOML); its route and its picture go beside it. Default: beside the
+    tape."""
+    json: bool = False
+    """One JSON object on standard output instead of a table."""
+
+
+class Paths(NamedTuple):
+    """The files that are written."""
+
+    scenario: Path
+    route: Path
+    picture: Path
+
+
+def paths(options: Options) -> Paths:
+    """Where the files go, tried before the work begins.
+
+    Raises:
+        UsageError: the scenario's name does not end in .toml, or a file cannot be written.
+    """
+    name = f"{options.log.resolve().stem}_rebuilt{SUFFIX}"
+    scenario = options.out or options.log.resolve().with_name(name)
+    if scenario.suffix != SUFFIX:
+        raise UsageError(f"--out {scenario}: expected a name that ends in {SUFFIX}")
+    found = Paths(scenario, scenario.with_suffix(".rddf"), scenario.with_suffix(".png"))
+    for path in found:
+        check_file(path)
+    return found
