@@ -87,6 +87,16 @@ def test_the_way_back_to_the_smooth_path_is_driven_no_faster_than_its_bends_allo
     assert plan.speed_mps <= bends_mps(bend, p)
 
 
+def test_with_the_steering_at_the_stops_and_a_straight_way_ahead_nobody_makes_haste():
+    at_the_stops = replace(situation(), curvature_per_m=1.0 / P.vehicle.steering.minimum_radius_m)
+    assert Machine(P).decide(at_the_stops).speed_mps < 2.0
+    turn = np.linspace(0.0, 1.5, 40)
+    bend = sampled(5.8 * np.column_stack([np.sin(turn), 1.0 - np.cos(turn)]))
+    along = replace(at_the_stops, route_ahead=bend)
+    assert Machine(P).decide(along).speed_mps > 2.0
+    assert Machine(P).decide(replace(situation(), curvature_per_m=0.05)).speed_mps > 3.0
+
+
 def test_who_is_astray_makes_no_haste_towards_narrows():
     s = replace(situation(), cross_track_m=0.8, half_width_m=3.7)
     p = P.planning.speed

@@ -14,8 +14,11 @@ from nav.planning.speed import set_point
 from nav.states.memory import Memory
 from nav.states.replanning import due
 from nav.states.situation import Plan, Situation
+from nav.steering_circle import curvature_rate
 
 NAME = "path_point_keeping"
+UNWOUND_S = 1.0
+"""The path is to be driven as it runs from so far ahead on."""
 
 
 def plan(s: Situation, memory: Memory, p: Parameters) -> Plan:
@@ -29,8 +32,9 @@ def plan(s: Situation, memory: Memory, p: Parameters) -> Plan:
     turn = abs(wrapped(direction - s.ego.heading_rad))
     speed = p.planning.speed
     limit = min(
-        s.V0_mps, _through_narrows(s, p), _settling(s, speed), bends_mps(s.route_ahead, speed)
-    )
+        s.V0_mps, _through_narrows(s, p), _settling(s, speed), bends_mps(s.route_ahead, speed),
+        _unwinding(s, p),
+    )  # fmt: skip
     clear = s.route_clear.real_m
     blocked = clear < s.route_ahead.arc_m[-1]  # the finish is no obstacle
     distance = clear if blocked else p.planning.local_path.look_ahead_m
@@ -57,6 +61,16 @@ def bends_mps(ahead: Curve, p: SpeedProfileParameters) -> float:
     """
     bend = p.lateral_mps2 / np.maximum(np.abs(ahead.curvature_per_m), 1e-4)
     return sqrt(float((bend + 2.0 * p.braking_mps2 * ahead.arc_m).min()))
+
+
+def _unwinding(s: Situation, p: Parameters) -> float:
+    """Beyond the paper: with the steering at the stops, and a path that soon runs otherwise, the
+    vehicle turns on until the wheels have followed. No faster than that it turns by little."""
+    ahead = s.route_ahead
+    soon = int(ahead.arc_m.searchsorted(UNWOUND_S * max(s.ego.speed_mps, 1.0)))
+    off = s.curvature_per_m - float(ahead.curvature_per_m[min(soon, len(ahead.arc_m) - 1)])
+    rate = curvature_rate(p.vehicle.steering)  # it takes off / rate, at half of `off` on average
+    return 2.0 * p.planning.speed.settle_rad * rate / max(off**2, 1e-6)
 
 
 def _through_narrows(s: Situation, p: Parameters) -> float:
