@@ -3,6 +3,7 @@
 import json
 from itertools import pairwise
 from math import inf, radians
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -367,7 +368,7 @@ def test_a_tape_becomes_a_scenario(monkeypatch, capsys, tmp_path):
 def test_a_reconstruction_is_driven(tmp_path):
     log = drive(tmp_path, 90.0)["log"]
     out = tmp_path / "again.toml"
-    assert reconstruct(Options(log, out, json=True)) == 0
+    assert reconstruct(Options(Path(log), out, json=True)) == 0
     (bale,) = read_scenario(out).things
     assert bale.at_m == pytest.approx((40.0, 1.5), abs=0.2)
     again = Job(scenario_source(str(out)), tmp_path, "off").drive(0)
