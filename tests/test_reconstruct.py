@@ -9,6 +9,7 @@ import numpy as np
 import pytest
 from test_cli import ion, refused
 from test_route_course import straight_route
+from test_scenery import TARGETS
 
 from ion.courses import scenario_source
 from ion.job import Job
@@ -28,6 +29,7 @@ from nav.messages import CompassHeading, GpsFix, GpsQuality, RadarTracks
 from scenarios.planned import Thing
 from scenarios.scenario_file import ScenarioFileError, read_scenario
 from twin.faults import Fault, parse
+from twin.simulator import Simulator
 
 CELL_M = 0.2
 END_S = 60.0
@@ -301,6 +303,18 @@ def test_things_stand_beside_what_the_seed_draws(tmp_path):
     both = read_scenario(path).drawn_course(0).world.everything()
     assert both[: len(drawn)] == drawn
     assert [o.kind for o in both[len(drawn) :]] == ["tires"]
+
+
+def test_there_is_room_for_as_much_as_a_file_puts_in_one_place(tmp_path):
+    (tmp_path / "r.rddf").write_text(straight_route(9))
+    post = '{{ kind = "post", at_m = [{:g}, 4.0], half_m = [0.1, 0.1], shape = "{}" }},\n'
+    posts = [post.format(k / 5, ("box", "cylinder")[k % 2]) for k in range(400)]
+    path = tmp_path / "mine.toml"
+    path.write_text(ROUTE + "things = [\n" + "".join(posts) + "]\n")
+    world = read_scenario(path).drawn_course(0).world
+    assert 80 <= world.room["box"] < 170  # 80 of each in 32 m; no more than twice that is kept
+    assert world.room["box"] == pytest.approx(world.room["cylinder"], abs=1)
+    Simulator(world, 0).advance(TARGETS)
 
 
 @pytest.mark.parametrize(

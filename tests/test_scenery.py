@@ -11,9 +11,8 @@ from nav.messages import ActuatorTargets, Gear
 from scenarios.chunks import KEPT, Chunks
 from scenarios.episode import Episode
 from scenarios.route import build
-from twin import pool
 from twin.simulator import Simulator
-from twin.world import SIGHT_M, Obstacle
+from twin.world import ROOM, SIGHT_M, Obstacle
 
 TARGETS = ActuatorTargets(0, 0.0, 0.6, 0.0, Gear.HIGH)
 
@@ -104,7 +103,7 @@ def test_the_vehicle_hits_what_it_meets(shape):
 
 def test_too_much_near_one_place_is_said():
     world = course().world
-    things = tuple(replace(block(3.0 * k), name=f"b{k}") for k in range(pool.COUNT["box"] + 1))
+    things = tuple(replace(block(3.0 * k), name=f"b{k}") for k in range(ROOM["box"] + 1))
     crowd = [replace(o, center_m=(8.0, 0.2 * k, 0.0)) for k, o in enumerate(things)]
     scenery = Chunks(np.array([[8.0, 0.0]]), np.array([6.0]), lambda k: tuple(crowd))
     with pytest.raises(ValueError, match=r"25 of shape box near b0 at .*, at most 24"):

@@ -1,5 +1,7 @@
 """The MuJoCo model of one world: the vehicle, a window of ground, and what stands on it."""
 
+from collections.abc import Mapping
+
 import mujoco
 
 import models
@@ -31,7 +33,7 @@ def compile(world: World, window: TerrainWindow, vehicle: str = models.RANGER) -
     for obstacle in world.obstacles:
         _add_obstacle(spec, obstacle, world.friction)
     if world.scenery:
-        _add_pool(spec, world.friction)
+        _add_pool(spec, world.room, world.friction)
     model = spec.compile()
     window.write_heights(model)
     return model
@@ -75,9 +77,9 @@ def _add_obstacle(spec: mujoco.MjSpec, obstacle: Obstacle, friction: float) -> N
     )
 
 
-def _add_pool(spec: mujoco.MjSpec, friction: float) -> None:
+def _add_pool(spec: mujoco.MjSpec, room: Mapping[str, int], friction: float) -> None:
     """As tall as wide: then the axes of inertia, in which MuJoCo keeps bounds, are the geoms'."""
-    for shape, count in pool.COUNT.items():
+    for shape, count in room.items():
         for k in range(count):
             name = pool.name(shape, k)
             body = spec.worldbody.add_body(name=name, mocap=True, pos=[0.0, 0.0, pool.PARKED_M])

@@ -1,25 +1,24 @@
 """Geoms that stand for whatever is near: MuJoCo's share of a world that streams past."""
 
 from collections.abc import Sequence
+from itertools import count, takewhile
 from math import hypot
 
 import mujoco
 import numpy as np
 
-from twin.world import OPACITY, Obstacle
+from twin.world import OPACITY, ROOM, Obstacle
 
 REACH_M = 16.0
 """What is farther from the vehicle than this when the pool is placed does not stand in it: the
 vehicle moves 8 m before it is placed anew, and is 2 m long on each side of its middle."""
-COUNT = {"box": 24, "cylinder": 16}
-"""How many of a shape there are."""
 PARKED_M = -1000.0
 """Height of those that stand for nothing."""
 
 
 def is_in(model: mujoco.MjModel) -> bool:
     """Whether a model has one."""
-    return mujoco.mj_name2id(model, mujoco.mjtObj.mjOBJ_BODY, name("box", 0)) >= 0
+    return any(_bodies(model, shape) for shape in ROOM)
 
 
 def name(shape: str, k: int) -> str:
@@ -31,10 +30,7 @@ class Pool:
     """The geoms of the pool in one compiled model. Picklable."""
 
     def __init__(self, model: mujoco.MjModel) -> None:
-        self._bodies = {
-            shape: [model.body(name(shape, k)).id for k in range(count)]
-            for shape, count in COUNT.items()
-        }
+        self._bodies = {shape: _bodies(model, shape) for shape in ROOM}
 
     def place(
         self, model: mujoco.MjModel, data: mujoco.MjData, near: Sequence[Obstacle]
@@ -65,6 +61,12 @@ class Pool:
 def within_reach(things: Sequence[Obstacle], at_m: tuple[float, float]) -> list[Obstacle]:
     """What is near enough to stand in the pool."""
     return [o for o in things if _gap_m(o, at_m) < REACH_M]
+
+
+def _bodies(model: mujoco.MjModel, shape: str) -> list[int]:
+    """Of one shape, by number."""
+    numbered = (mujoco.mj_name2id(model, mujoco.mjtObj.mjOBJ_BODY, name(shape, k)) for k in count())
+    return list(takewhile(lambda body: body >= 0, numbered))
 
 
 def _gap_m(thing: Obstacle, at_m: tuple[float, float]) -> float:

@@ -1,5 +1,6 @@
 """What surrounds the vehicle: terrain, things that stand on it, sky, and where it starts."""
 
+from collections.abc import Mapping
 from dataclasses import dataclass, field
 from typing import Protocol
 
@@ -21,6 +22,8 @@ METAL = frozenset({"car", "tunnel", "tank_trap"})
 """Kinds of steel: they turn a compass."""
 SOFT = frozenset({"rumble_strip", *OPACITY})
 """Kinds of obstacle that a vehicle may touch."""
+ROOM: Mapping[str, int] = {"box": 24, "cylinder": 16}
+"""How many of a shape are near at most, where a seed draws them along a way."""
 
 
 class Scenery(Protocol):
@@ -95,6 +98,8 @@ class World:
     faults: tuple[Fault, ...] = ()
     road: Road | None = None
     scenery: Scenery | None = None
+    room: Mapping[str, int] = field(default_factory=lambda: dict(ROOM))
+    """How many of each shape of the scenery can be near at once."""
 
     def around(self, x_m: float, y_m: float) -> tuple[Obstacle, ...]:
         """All that can be seen or touched from near a place; the same object as the last time where

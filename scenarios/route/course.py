@@ -8,11 +8,11 @@ import numpy as np
 from nav.route import rddf
 from scenarios.course import Course, Floats, route_points_m
 from scenarios.planned import Thing
-from scenarios.route.placed import joined, moved, placed
+from scenarios.route.placed import joined, moved, placed, room
 from scenarios.route.roadside import scenery
 from scenarios.things import generator
 from twin.terrain import Octave, RollingGround
-from twin.world import Scenery, Terrain, World
+from twin.world import ROOM, Scenery, Terrain, World
 
 DESERT = (Octave(160.0, 2.0), Octave(32.0, 0.16), Octave(6.0, 0.02))
 """Estimated: rougher than the NQE's ground."""
@@ -82,6 +82,7 @@ def build(
         start=_start(waypoint_m),
         satellites=SKY,
         scenery=_scenery(seed, ground, things, corridor if given.roadside else None),
+        room=_room(things, given.roadside),
     )
     return Course(
         name="route",
@@ -105,6 +106,11 @@ def _scenery(
         return placed(seed, ground, things)
     drawn = scenery(seed, ground, *corridor)
     return joined(drawn, placed(seed, ground, things)) if things else drawn
+
+
+def _room(things: tuple[Thing, ...], roadside: bool) -> dict[str, int]:
+    """For what is placed, and for what the seed draws."""
+    return {shape: count + roadside * ROOM[shape] for shape, count in room(things).items()}
 
 
 def _start(waypoint_m: Floats) -> tuple[float, float, float]:

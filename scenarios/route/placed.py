@@ -12,7 +12,8 @@ from scenarios.chunks import Chunks
 from scenarios.geometry import Point
 from scenarios.planned import Thing, obstacle
 from twin.earth import to_geodetic, to_world
-from twin.world import Obstacle, Terrain
+from twin.pool import REACH_M
+from twin.world import ROOM, Obstacle, Terrain
 
 TILE_M = 100.0
 
@@ -55,6 +56,11 @@ def placed(seed: int, terrain: Terrain, things: Sequence[Thing]) -> Chunks:
     return Chunks(middle, np.array(radius), Tiles(seed, terrain, things, tiles))
 
 
+def room(things: Sequence[Thing]) -> dict[str, int]:
+    """How many of each shape can be near at once: no more than are near one of them."""
+    return {shape: _crowd([t for t in things if t.shape == shape]) for shape in ROOM}
+
+
 def joined(one: Chunks, other: Chunks) -> Chunks:
     """All of both."""
     middle_m = np.concatenate([one.middle_m, other.middle_m])
@@ -71,6 +77,14 @@ def moved(things: Sequence[Thing], origin: Point, anchor: Point) -> tuple[Thing,
         msgspec.structs.replace(thing, at_m=place)
         for thing, place in zip(things, zip(x.tolist(), y.tolist(), strict=True), strict=True)
     )
+
+
+def _crowd(things: Sequence[Thing]) -> int:
+    """What is within reach of one place is not farther from each other than twice the reach."""
+    at_m = np.array([thing.at_m for thing in things], dtype=float).reshape(-1, 2)
+    own_m = np.array([_reach_m(thing, thing.at_m) for thing in things])
+    gaps = (np.hypot(*(at_m - at).T) - own_m - own for at, own in zip(at_m, own_m, strict=True))
+    return max((int(np.count_nonzero(gap < 2.0 * REACH_M)) for gap in gaps), default=0)
 
 
 def _tile(thing: Thing) -> tuple[int, int]:
