@@ -113,6 +113,8 @@ def row(name: str, out: Path, seed: int) -> str:
 
 def rebuilt(log: Path, path: Path) -> tuple[Thing, ...]:
     """The things that `ion reconstruct` finds on a tape."""
+    for made in (path, path.with_suffix(".rddf")):
+        made.unlink(missing_ok=True)
     reconstruct(Options(log, path, json=True))
     return read_scenario(path).things
 

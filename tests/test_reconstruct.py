@@ -376,6 +376,9 @@ def test_a_tape_becomes_a_scenario(monkeypatch, capsys, tmp_path):
     assert parse(fault, ["radar"]).begins == pytest.approx(2.0, abs=0.05)
     assert out.with_suffix(".png").read_bytes().startswith(b"\x89PNG")
     assert "timeout after 3 s" in read_scenario(out).title
+    edited = out.read_text()
+    assert "there already" in refused(monkeypatch, capsys, "reconstruct", log, "--out", out)
+    assert out.read_text() == edited
 
 
 @pytest.mark.slow

@@ -37,13 +37,17 @@ def paths(options: Options) -> Paths:
     """Where the files go, tried before the work begins.
 
     Raises:
-        UsageError: the scenario's name does not end in .toml, or a file cannot be written.
+        UsageError: the scenario's name does not end in .toml, or a file cannot be written; or the
+            scenario or its route is there already, for people edit them.
     """
     name = f"{options.log.resolve().stem}_rebuilt{SUFFIX}"
     scenario = options.out or options.log.resolve().with_name(name)
     if scenario.suffix != SUFFIX:
         raise UsageError(f"--out {scenario}: expected a name that ends in {SUFFIX}")
     found = Paths(scenario, scenario.with_suffix(".rddf"), scenario.with_suffix(".png"))
+    for path in (found.scenario, found.route):
+        if path.is_file():
+            raise UsageError(f"{path}: is there already; remove it, or name another with --out")
     for path in found:
         check_file(path)
     return found
