@@ -113,6 +113,11 @@ def test_a_face_lies_where_it_was_seen_and_the_thing_behind_it():
         assert side * wall.at_m[1] - wall.half_m[1] == pytest.approx(2.05, abs=0.02)
 
 
+def test_what_was_driven_through_is_brush():
+    assert found(((20.0, -2.0), (20.0, 2.0)))[0].kind == "brush"
+    assert found(((20.0, 0.8), (20.0, 2.0)))[0].kind == "seen"
+
+
 def test_what_is_far_or_hardly_seen_is_left_out():
     assert found(((10, 15), (12, 15))) == []
     tally = counted(np.array([[5.0, 5.0], [1.0, 1.0], [0.5, 0.5]]), CELL_M)
