@@ -31,6 +31,7 @@ test-slow: .venv/.dev
 
 check: .venv/.dev browser
 	$(BIN)/ruff check
+	$(BIN)/ruff format --check
 	$(BIN)/pyright
 	$(BIN)/lint-imports
 	$(BIN)/pytest -n auto

@@ -133,9 +133,7 @@ class IonNavigator:
             gps_lost_s=self.ego.gps_lost_s(time_ns),
             sonar_m=sonar,
             vehicle=self._vehicle,
-            health=self.health.check(
-                time_ns, self.admission.newest_ns, self.plausibility.doubted
-            ),
+            health=self.health.check(time_ns, self.admission.newest_ns, self.plausibility.doubted),
             road=self._road if self._road and _is_fresh(self._road.time_ns, time_ns) else None,
             confirmed_m=self._confirmed_m(ego, sonar),
         )

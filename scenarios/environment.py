@@ -36,9 +36,7 @@ class ActionError(ValueError):
     """An action that no vehicle could take; says what would be one."""
 
 
-def load(
-    scenario: str, seed: int = 0, faults: Sequence[str] = (), **options: Any
-) -> "Environment":
+def load(scenario: str, seed: int = 0, faults: Sequence[str] = (), **options: Any) -> "Environment":
     """A scenario by its name, as `ion drive` takes it.
 
     Args:

@@ -102,5 +102,3 @@ class Heard:
             age_s = NEVER_S if heard_ns is None else (now_ns - heard_ns) * 1e-9
             seen[name], seen[f"{name}_age_s"] = values, np.array(age_s)
         return seen
-
-

@@ -136,9 +136,7 @@ def test_resume_says_what_is_wrong(monkeypatch, capsys, tmp_path):
     said = refused(monkeypatch, capsys, "drive", "nqe", "--resume", tmp_path)
     assert "nothing beside it" in said
     save(tmp_path / CHECKPOINT, {"job": 1})
-    assert "no checkpoint of a drive" in refused(
-        monkeypatch, capsys, "drive", "--resume", tmp_path
-    )
+    assert "no checkpoint of a drive" in refused(monkeypatch, capsys, "drive", "--resume", tmp_path)
     with pytest.raises(TapeError, match=r"expected segments 0000\.mcap"):
         metadata(tmp_path)
 

@@ -80,9 +80,7 @@ def test_the_navigator_drives_it_as_in_an_episode():
     environment.reset()
     for _ in range(300):
         episode.tick()
-    navigator = IonNavigator(
-        parameters_of("ion"), rddf.parse(course.route_text, course.route_name)
-    )
+    navigator = IonNavigator(parameters_of("ion"), rddf.parse(course.route_text, course.route_name))
     targets, heard = ActuatorTargets(0, 0.0, 0.0, 1.0, Gear.HIGH), []
     take = environment._heard.take
     environment._heard.take = lambda messages: (heard.append(messages), take(messages))

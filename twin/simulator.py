@@ -57,9 +57,7 @@ class Simulator:
         self.faults = Faults(world.faults, seed)
         if isinstance(self.plant, Plant):
             self.plant.fail(self.faults)
-        self.sensors = SensorSuite(
-            world, self.sight, seed, disabled, kind.sensors(), self.faults
-        )
+        self.sensors = SensorSuite(world, self.sight, seed, disabled, kind.sensors(), self.faults)
 
     @property
     def time_ns(self) -> int:

@@ -65,9 +65,7 @@ class Comparison:
         figures = episode.judge.figures()
         operations_s = figures["states"].get("robotic_operations", 0.0)
         passed = figures["waypoints_passed"]
-        return Drive(
-            variant, seed, episode.outcome, episode.time_s, passed, operations_s, looks
-        )
+        return Drive(variant, seed, episode.outcome, episode.time_s, passed, operations_s, looks)
 
 
 def _look(episode: Any) -> Look:

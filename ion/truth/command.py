@@ -52,5 +52,3 @@ def _table(found: dict[str, Check]) -> Table:
         holds = "[green]holds[/]" if check.holds else "[red]does not hold[/]"
         table.add_row(name, twin, allowed, check.grade, holds)
     return table
-
-

@@ -169,4 +169,3 @@ def _stands(site: Site) -> list[Obstacle]:
     if site.kind == "hay_bale":
         return site.bales(2)
     return [site.box("", site.pose, HALF_M["rock"], 0.9)]
-

@@ -54,9 +54,8 @@ def without_axle(axle: str) -> float:
 
 def middle_axle() -> Check:
     """The reason has to be the axles: without the middle one's grip the circle is another."""
-    whole, middle, rear = radius_m(Rig(plane(0.7)), STEERING_LIMIT_RAD), *map(
-        without_axle, ("middle", "rear")
-    )
+    whole = radius_m(Rig(plane(0.7)), STEERING_LIMIT_RAD)
+    middle, rear = without_axle("middle"), without_axle("rear")
     lines = {"radius": np.array([whole, middle, rear])}
     return Check(
         title="Full steering without grip on the middle axle: change of the radius",
