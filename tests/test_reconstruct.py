@@ -20,7 +20,7 @@ from ion.reconstruct.obstacles import things
 from ion.reconstruct.options import Options
 from ion.reconstruct.rebuilt import Rebuilt, rebuilt
 from ion.reconstruct.rectangles import pieces, smallest
-from ion.reconstruct.scenario_text import scenario_text
+from ion.reconstruct.scenario_text import route_text, scenario_text
 from ion.reconstruct.standing import standing
 from ion.reconstruct.stream import Listener, Stream
 from ion.reconstruct.stretches import Stretch, Stretches
@@ -33,6 +33,7 @@ from twin.simulator import Simulator
 
 CELL_M = 0.2
 END_S = 60.0
+ROUTE_LINES = route_text("r.rddf", {})
 PERIOD_S = 0.1
 STRAIGHT = np.stack([np.arange(0.0, 60.0, 0.5), np.zeros(120)], axis=1)
 """A way along the x axis."""
@@ -229,6 +230,7 @@ def told(unfixed=(), doubted=()):
     tally = counted(np.zeros((3, 0)), CELL_M)
     return Evidence(
         END_S,
+        False,
         np.array([0.0]),
         STRAIGHT[:1],
         tally,
@@ -244,7 +246,7 @@ def told(unfixed=(), doubted=()):
 
 def test_a_file_says_what_was_found(tmp_path):
     (tmp_path / "r.rddf").write_text(straight_route(3))
-    text = scenario_text(Rebuilt(THINGS, FAULTS, told()), 'A "tape".', "r.rddf", 99.0)
+    text = scenario_text(Rebuilt(THINGS, FAULTS, told()), 'A "tape".', ROUTE_LINES, 99.0)
     (tmp_path / "s.toml").write_text(text)
     scenario = read_scenario(tmp_path / "s.toml")
     assert scenario.title == 'A "tape".'
@@ -260,11 +262,11 @@ def test_what_is_no_fault_is_a_comment(tmp_path):
         FAULTS,
         told([Stretch("gps", 1.0, 9.0, "2 satellites")], [Stretch("imu", 5.0, 8.0, "x")]),
     )
-    lines = scenario_text(found, "A tape.", "r.rddf", 99.0).splitlines()
+    lines = scenario_text(found, "A tape.", ROUTE_LINES, 99.0).splitlines()
     assert any(line.startswith("# gps spoke, but had no fix from 1.0 s") for line in lines)
     assert any(line.startswith("# imu was not believed from 5.0 s to 8.0 s") for line in lines)
     explained = Rebuilt([], FAULTS, told(doubted=[Stretch("radar", 13.0, 14.0, "x")]))
-    assert "not believed" not in scenario_text(explained, "A tape.", "r.rddf", 99.0)
+    assert "not believed" not in scenario_text(explained, "A tape.", ROUTE_LINES, 99.0)
 
 
 def test_an_empty_world_is_one():
@@ -384,6 +386,21 @@ def test_a_tape_becomes_a_scenario(monkeypatch, capsys, tmp_path):
     edited = out.read_text()
     assert "there already" in refused(monkeypatch, capsys, "reconstruct", log, "--out", out)
     assert out.read_text() == edited
+
+
+def test_a_part_of_a_tape_becomes_a_part_of_a_route(monkeypatch, capsys, tmp_path):
+    log = drive(tmp_path, 12.0)["log"]
+    said = ion(monkeypatch, capsys, "reconstruct", log, "--from", "2", "--json")[1]
+    later = read_scenario(Path(json.loads(said)["scenario"]))
+    assert (later.first, later.last, later.faults) == (2, None, ("radar silent 0s",))
+    assert later.title.endswith("from waypoint 2: timeout after 1 s.")
+    assert later.things[0].at_m == pytest.approx((40.0, 1.5), abs=0.2)
+    said = ion(monkeypatch, capsys, "reconstruct", log, "--to", "2", "--json")[1]
+    before = read_scenario(Path(json.loads(said)["scenario"]))
+    assert (before.first, before.last) == (None, 2)
+    assert before.title.endswith("to waypoint 2: arrived after 11 s.")
+    for stretch in (("--from", 3), ("--from", 2, "--to", 9)):
+        assert "no stretch" in refused(monkeypatch, capsys, "reconstruct", log, *stretch)
 
 
 @pytest.mark.slow

@@ -14,14 +14,15 @@ from rich.table import Table
 
 from ion.errors import UsageError
 from ion.out_file import write_whole
-from ion.reconstruct.evidence import evidence
+from ion.reconstruct.evidence import Evidence, Part, evidence
 from ion.reconstruct.options import Options, Paths, paths
 from ion.reconstruct.rebuilt import Rebuilt, rebuilt
-from ion.reconstruct.scenario_text import scenario_text
+from ion.reconstruct.scenario_text import route_text, scenario_text
 from ion.recorded import FIGURES
 from ion.replay.scans import check_scans
 from nav.parameters import ION
 from nav.route import rddf
+from nav.route.rddf import Route
 from scenarios.replay import Tick, route_of
 from scenarios.route import build
 from tape.reader import attachments, metadata, span_ns
@@ -36,25 +37,39 @@ def reconstruct(options: Options) -> int:
     Raises:
         UsageError: a file cannot be written, or the tape has nothing to rebuild a world from.
         TapeError: no tape, or a damaged one.
-        NavError: its route is none.
+        NavError: its route is none, or has no such stretch.
     """
     where = paths(options)
     _check(options.log)
+    name, text = route_of(options.log)
+    part = part_of(rddf.parse(text, name), options)
     with _bar(options.log) as shown:
-        found = rebuilt(evidence(options.log, shown))
+        found = rebuilt(evidence(options.log, shown, part))
     if not len(found.evidence.way_m):
-        raise UsageError(f"{options.log}: ends before the navigator knows where it is")
-    route = route_of(options.log)
-    _write(found, options.log, route, where)
+        where_to = "the navigator knows where it is" if part.first is None else "this part begins"
+        raise UsageError(f"{options.log}: ends before {where_to}")
+    _write(found, options, (name, text), where)
     _tell(numbers(found, options.log, where), options.json)
     return 0
+
+
+def part_of(route: Route, options: Options) -> Part:
+    """What is asked for, by places in the route instead of numbers.
+
+    Raises:
+        NavError: the route has no such stretch.
+    """
+    low, high, asked = int(route.number[0]), int(route.number[-1]), options.stretch
+    route.stretch(asked.get("from", low), asked.get("to", high))
+    places = {name: number - low for name, number in asked.items()}
+    return Part(places.get("from"), places.get("to"))
 
 
 def numbers(found: Rebuilt, log: Path, where: Paths) -> dict[str, Any]:
     """What was found, for JSON."""
     return {
         "log": str(log),
-        "outcome": outcome(log),
+        "outcome": outcome(log, found.evidence),
         "duration_s": round(found.evidence.end_s, 2),
         "things": len(found.things),
         "shapes": dict(Counter(thing.shape for thing in found.things)),
@@ -65,16 +80,19 @@ def numbers(found: Rebuilt, log: Path, where: Paths) -> dict[str, Any]:
     }
 
 
-def outcome(log: Path) -> str:
-    """How the drive ended, as far as the tape says."""
+def outcome(log: Path, told: Evidence) -> str:
+    """How the drive or its part ended, as far as the tape says."""
+    if told.arrived:
+        return "arrived"
     figures = json.loads(attachments(log).get(FIGURES, b"{}"))
     return figures.get("outcome", "unknown")
 
 
-def title(log: Path, ended: str, end_s: float) -> str:
+def title(options: Options, ended: str, end_s: float) -> str:
     """Of the scenario: a sentence."""
-    how = f"ends after {end_s:.0f} s" if ended == "unknown" else f"{ended} after {end_s:.0f} s"
-    return f"Rebuilt from the tape {log.resolve().stem}: {how}."
+    part = "".join(f", {word} waypoint {n}" for word, n in options.stretch.items())
+    how = "ends" if ended == "unknown" else ended
+    return f"Rebuilt from the tape {options.log.resolve().stem}{part}: {how} after {end_s:.0f} s."
 
 
 def _check(log: Path) -> None:
@@ -90,16 +108,17 @@ def _check(log: Path) -> None:
     check_scans(log)
 
 
-def _write(found: Rebuilt, log: Path, route: tuple[str, str], where: Paths) -> None:
+def _write(found: Rebuilt, options: Options, route: tuple[str, str], where: Paths) -> None:
     from ion.reconstruct.picture import draw
     from ion.style import png
 
     name, text = route
-    course = build(text, name, None, None, 0)
+    course = build(text, name, options.first, options.last, 0)
     limit_s = float(ceil(max(course.time_limit_s, SLOWER * found.evidence.end_s + MORE_S)))
-    sentence = title(log, outcome(log), found.evidence.end_s)
+    sentence = title(options, outcome(options.log, found.evidence), found.evidence.end_s)
     write_whole(where.route, text)
-    write_whole(where.scenario, scenario_text(found, sentence, where.route.name, limit_s))
+    route_lines = route_text(where.route.name, options.stretch)
+    write_whole(where.scenario, scenario_text(found, sentence, route_lines, limit_s))
     where.picture.write_bytes(png(draw(found, rddf.parse(text, name), sentence)))
 
 

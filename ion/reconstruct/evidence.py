@@ -1,6 +1,7 @@
 """All that a tape's messages tell of a drive, gathered while the present navigator goes over them.
 
-Nothing else on a tape is looked at: not what a twin knows of its world.
+Nothing else on a tape is looked at: not what a twin knows of its world. Of a part of a drive, the
+navigator goes over what was before it too, so that it knows what it knew then.
 """
 
 from collections.abc import Callable
@@ -13,16 +14,36 @@ from ion.reconstruct.seen import Seen
 from ion.reconstruct.stream import Listener, Stream
 from ion.reconstruct.stretches import Stretch, Stretches
 from ion.reconstruct.tally import Ints, Tally
-from nav.messages import RESET, DirectCommand, EgoEstimate, Floats, GpsFix, GpsQuality, device
+from nav.messages import (
+    RESET,
+    Decision,
+    DirectCommand,
+    EgoEstimate,
+    Floats,
+    GpsFix,
+    GpsQuality,
+    device,
+)
 from nav.navigator import IonNavigator
 from scenarios.replay import Tick, navigator_of, replay
 from tape.reader import span_ns
 
 
+class Part(NamedTuple):
+    """Of a drive: from one waypoint to another, by their places in the route."""
+
+    first: int | None = None
+    """None: from the beginning of the tape."""
+    last: int | None = None
+    """None: to its end."""
+
+
 class Evidence(NamedTuple):
-    """Times are seconds since the tape began, places in the route frame N."""
+    """Times are seconds since the tape or its part began, places in the route frame N."""
 
     end_s: float
+    arrived: bool
+    """Whether the last waypoint of a part was passed."""
     time_s: Floats
     """Shape (n,): of the estimates ..."""
     way_m: Floats
@@ -45,22 +66,38 @@ class Evidence(NamedTuple):
     """The devices that the vehicle should have."""
 
 
-def evidence(log: Path, shown: Callable[[Tick], None]) -> Evidence:
-    """Go over a tape from its beginning to its end.
+WHOLE = Part()
+
+
+def evidence(log: Path, shown: Callable[[Tick], None], part: Part = WHOLE) -> Evidence:
+    """Go over a tape from its beginning to its end, or to that of a part.
 
     Args:
         log: the tape.
         shown: is shown every tick, for a bar.
+        part: what is of interest.
 
     Raises:
         TapeError: no tape, a damaged one, or one that lacks what a navigator needs.
     """
-    navigator = navigator_of(log)
+    navigator, ahead = navigator_of(log), 0
     witness = Witness(navigator, span_ns(log)[0])
     for tick in replay(log, navigator):
-        witness.take(tick)
         shown(tick)
-    return witness.evidence()
+        ahead = _ahead(tick, ahead)
+        if part.last is not None and ahead > part.last:
+            return witness.evidence(arrived=True)
+        if part.first is not None and ahead <= part.first:
+            witness = Witness(navigator, tick.time_ns)  # of what was before, nothing is kept
+            continue
+        witness.take(tick)
+    return witness.evidence(arrived=False)
+
+
+def _ahead(tick: Tick, before: int) -> int:
+    """Place in the route of the waypoint ahead, which a decision tells."""
+    told = (r.waypoint for r in tick.outputs.reports if isinstance(r, Decision))
+    return next(told, before)
 
 
 class Witness:
@@ -90,11 +127,12 @@ class Witness:
             if isinstance(report, EgoEstimate):
                 self._decided(report)
 
-    def evidence(self) -> Evidence:
+    def evidence(self, arrived: bool) -> Evidence:
         """All of it."""
         health, obstacles = self._navigator.health, self._navigator.obstacles
         return Evidence(
             self._end_s,
+            arrived,
             np.array(self._time_s),
             np.array(self._way).reshape(-1, 2),
             *self._seen.all(obstacles),

@@ -21,8 +21,18 @@ class Options:
     out: Annotated[Path | None, arg(metavar="FILE")] = None
     """Where the scenario goes (TOML); its route and its picture go beside it. Default: beside the
     tape."""
+    first: Annotated[int | None, arg(name="from", metavar="WAYPOINT")] = None
+    """Rebuild only what lies behind the waypoint of this number ..."""
+    last: Annotated[int | None, arg(name="to", metavar="WAYPOINT")] = None
+    """... and only up to this one."""
     json: bool = False
     """One JSON object on standard output instead of a table."""
+
+    @property
+    def stretch(self) -> dict[str, int]:
+        """What of `from` and `to` was asked for, by name."""
+        asked = {"from": self.first, "to": self.last}
+        return {name: number for name, number in asked.items() if number is not None}
 
 
 class Paths(NamedTuple):
@@ -40,8 +50,7 @@ def paths(options: Options) -> Paths:
         UsageError: the scenario's name does not end in .toml, or a file cannot be written; or the
             scenario or its route is there already, for people edit them.
     """
-    name = f"{options.log.resolve().stem}_rebuilt{SUFFIX}"
-    scenario = options.out or options.log.resolve().with_name(name)
+    scenario = options.out or options.log.resolve().with_name(_name(options))
     if scenario.suffix != SUFFIX:
         raise UsageError(f"--out {scenario}: expected a name that ends in {SUFFIX}")
     found = Paths(scenario, scenario.with_suffix(".rddf"), scenario.with_suffix(".png"))
@@ -51,3 +60,8 @@ def paths(options: Options) -> Paths:
     for path in found:
         check_file(path)
     return found
+
+
+def _name(options: Options) -> str:
+    part = "".join(f"_{word}{number}" for word, number in options.stretch.items())
+    return f"{options.log.resolve().stem}{part}_rebuilt{SUFFIX}"

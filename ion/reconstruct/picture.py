@@ -27,7 +27,7 @@ THICK_PX = 1.5
 def draw(found: Rebuilt, route: Route, title: str) -> Figure:
     """North is up, metres east and north of the first waypoint: the numbers of the file."""
     waypoints = waypoints_of(route, route_frame(route))
-    low, high = _box(waypoints.position_m, found)
+    low, high = _box(found.evidence.way_m)
     figure = new_figure(WIDTH_IN, _height_in(low, high))
     axes = figure.add_subplot()
     draw_corridor(axes, waypoints.position_m, route.half_width_m, EDGE_M)
@@ -42,10 +42,9 @@ def draw(found: Rebuilt, route: Route, title: str) -> Figure:
     return figure
 
 
-def _box(waypoint_m: Floats, found: Rebuilt) -> tuple[Floats, Floats]:
+def _box(way_m: Floats) -> tuple[Floats, Floats]:
     """All that was driven; of a route that was not finished, not the rest."""
-    points = np.vstack([found.evidence.way_m, waypoint_m[:1]])
-    low, high = points.min(axis=0) - MARGIN_M, points.max(axis=0) + MARGIN_M
+    low, high = way_m.min(axis=0) - MARGIN_M, way_m.max(axis=0) + MARGIN_M
     more = np.maximum(LEAST_SHARE * (high - low)[::-1] - (high - low), 0.0) / 2.0
     return low - more, high + more
 
@@ -66,7 +65,7 @@ def _draw_things(axes: Axes, things: list[Thing]) -> None:
 
 
 def _draw_ends(axes: Axes, way_m: Floats) -> None:
-    for (x, y), marker, label in ((way_m[0], "o", "start"), (way_m[-1], "X", "end of the tape")):
+    for (x, y), marker, label in ((way_m[0], "o", "start"), (way_m[-1], "X", "end")):
         axes.plot(x, y, marker, markersize=9, markerfacecolor="white", markeredgecolor=INK,
                   markeredgewidth=1.3, zorder=8, label=label, linestyle="none")  # fmt: skip
 

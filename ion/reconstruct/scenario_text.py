@@ -1,6 +1,6 @@
 """The scenario's file: what was found as keys, what cannot be known as comments."""
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 
 from ion.reconstruct.rebuilt import Rebuilt
 from ion.reconstruct.stretches import Stretch
@@ -23,11 +23,11 @@ def scenario_text(found: Rebuilt, title: str, route: str, time_limit_s: float) -
     Args:
         found: what the tape came to.
         title: a sentence.
-        route: name of the route file, which lies beside it.
+        route: of `route_text`.
         time_limit_s: of the drive.
     """
     parts = [
-        f'title = "{_quoted(title)}"\nroute = "{_quoted(route)}"\n',
+        f'title = "{_quoted(title)}"\n{route}',
         f"roadside = false\nbumps = 0.0\ntime_limit_s = {time_limit_s:g}\n",
         UNKNOWN,
         _faults(found.faults, _unexplained(found)),
@@ -35,6 +35,18 @@ def scenario_text(found: Rebuilt, title: str, route: str, time_limit_s: float) -
         '[verdicts]\noutcome = "finished"\ncontacts = 0\n',
     ]
     return "\n".join(parts)
+
+
+def route_text(name: str, stretch: Mapping[str, int]) -> str:
+    """The lines that say what is driven.
+
+    Args:
+        name: of the route file, which lies beside the scenario.
+        stretch: numbers of the waypoints `from` and `to` which it is driven, where not all of it.
+    """
+    part = "".join(f"{key} = {number}\n" for key, number in stretch.items())
+    times = "# Times count from when the tape passed that waypoint.\n" if "from" in stretch else ""
+    return f'route = "{_quoted(name)}"\n{part}{times}'
 
 
 def _faults(faults: Sequence[Fault], others: Iterable[str]) -> str:
