@@ -82,15 +82,15 @@ class SpeedProfileParameters:
     lateral_mps2: float
     braking_mps2: float
     cap_mps: float
-    """The vehicle's own limit ..."""
+    """The vehicle's own limit where things may stand on the line; ..."""
+    wide_mps: float
+    """... where the speed limit is at least ..."""
+    wide_limit_mps: float
+    """... this, and bends are far; ..."""
     open_mps: float
-    """... and the one on an open track: its limit is at least ..."""
-    open_limit_mps: float
-    """... this, and its corridor ..."""
+    """... and on an open track: its corridor is ..."""
     open_half_width_m: float
     """... narrower than this: nothing can stand in it, since one could not pass."""
-    wide_mps: float
-    """Where the limit is as high, and the corridor wider."""
     limit_factor: float
     """Share of the speed limit that is aimed at, so that control errors stay below it."""
     avoid_mps: float
