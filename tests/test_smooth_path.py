@@ -3,13 +3,11 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from nav.planning.speed_profile import speed_profile
 from nav.route.corridor import foot
 from nav.route.rddf import parse
 from nav.route.rounding import Rounding
 from nav.route.smooth_path import catmull_rom, project, smooth_path
 from nav.route.waypoints import Waypoints, route_frame, waypoints_of
-from scenarios.parameter_files import parameters_of
 
 GC04 = Path(__file__).parents[2] / "shared" / "data" / "gc04_race_rddf.txt"
 real_data = pytest.mark.skipif(
@@ -126,21 +124,6 @@ def test_samples_know_their_segment_and_speed_limit():
     assert set(path.segment[x < 19.5]) == {0}
     assert set(path.segment[x > 20.5]) == {1}
     np.testing.assert_array_equal(path.speed_limit_mps, np.array([3.0, 7.0])[path.segment])
-
-
-def test_the_narrower_the_track_the_faster():
-    """Where the corridor leaves no way past a thing, none stands."""
-    speed = parameters_of().planning.speed
-    corridor = Waypoints(
-        np.array([[0.0, 0.0], [200.0, 0.0], [400.0, 0.0], [600.0, 0.0], [800.0, 0.0]]),
-        np.array([2.5, 2.5, 6.0, 6.0, 6.0]),
-        np.array([9.0, 12.0, 9.0, 12.0, 12.0]),
-    )
-    path = smooth_path(corridor)
-    V0 = speed_profile(path, corridor.half_width_m[path.segment], speed)
-    middles = np.searchsorted(path.arc_m, [100.0, 300.0, 500.0, 700.0])
-    expected = [9.0 * speed.limit_factor, speed.open_mps, speed.cap_mps, speed.wide_mps]
-    np.testing.assert_allclose(V0[middles], expected)
 
 
 def test_the_shortest_route_of_all():

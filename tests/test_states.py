@@ -8,7 +8,7 @@ import pytest
 from nav.messages import EgoEstimate
 from nav.parameters import parameters_from
 from nav.planning.arcs import curvature_back
-from nav.planning.boundaries import REAL, SAFE, TOUCH
+from nav.planning.boundaries import REAL, TOUCH
 from nav.planning.curve import sampled
 from nav.planning.local_path import clear_distances
 from nav.planning.scanning import Boundaries
@@ -95,15 +95,6 @@ def test_with_the_steering_at_the_stops_and_a_straight_way_ahead_nobody_makes_ha
     along = replace(at_the_stops, route_ahead=bend)
     assert Machine(P).decide(along).speed_mps > 2.0
     assert Machine(P).decide(replace(situation(), curvature_per_m=0.05)).speed_mps > 3.0
-
-
-def test_narrows_slow_who_sees_them_and_nobody_else():
-    s = replace(situation((20.0, 30.0, -1.0, 1.0)), V0_mps=10.5)
-    level = np.minimum(s.boundaries.level, SAFE)
-    boundaries = Boundaries(level, s.boundaries.origin_m, s.boundaries.cell_m)
-    narrows = clear_distances(s.route_ahead, boundaries, P.planning.footprint)
-    assert 4.0 < Machine(P).decide(replace(s, route_clear=narrows)).speed_mps < 8.0
-    assert Machine(P).decide(replace(situation(), V0_mps=10.5)).speed_mps == 10.5
 
 
 def test_who_is_astray_makes_no_haste_towards_narrows():

@@ -82,15 +82,15 @@ class SpeedProfileParameters:
     lateral_mps2: float
     braking_mps2: float
     cap_mps: float
-    """The vehicle's own limit where things may stand on the line; ..."""
-    wide_mps: float
-    """... where the speed limit is at least ..."""
-    wide_limit_mps: float
-    """... this, and bends are far; ..."""
+    """The vehicle's own limit ..."""
     open_mps: float
-    """... and on an open track: its corridor is ..."""
+    """... and the one on an open track: its limit is at least ..."""
+    open_limit_mps: float
+    """... this, and its corridor ..."""
     open_half_width_m: float
-    """... narrower than this: nothing can stand in it, since one could not pass."""
+    """... narrower than this: nothing but a post leaves a way past it. A post is seen at 11 m."""
+    wide_mps: float
+    """Where the limit is as high, and the corridor wider."""
     limit_factor: float
     """Share of the speed limit that is aimed at, so that control errors stay below it."""
     avoid_mps: float

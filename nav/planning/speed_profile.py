@@ -15,8 +15,8 @@ def speed_profile(route: SmoothPath, half_width_m: Floats, p: SpeedProfileParame
     what lies ahead than `braking_mps2`.
     """
     bend = np.sqrt(p.lateral_mps2 / np.maximum(np.abs(route.curvature_per_m), 1e-4))
-    clear, fast = half_width_m < p.open_half_width_m, route.speed_limit_mps >= p.wide_limit_mps
-    cap = np.where(clear, p.open_mps, np.where(fast, p.wide_mps, p.cap_mps))
+    fast, clear = route.speed_limit_mps >= p.open_limit_mps, half_width_m < p.open_half_width_m
+    cap = np.where(fast, np.where(clear, p.open_mps, p.wide_mps), p.cap_mps)
     limit = np.minimum(p.limit_factor * route.speed_limit_mps, cap)
     squared = np.minimum(limit, bend) ** 2
     gained = 2.0 * p.braking_mps2 * route.arc_m
