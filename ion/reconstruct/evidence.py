@@ -66,10 +66,7 @@ class Evidence(NamedTuple):
     """The devices that the vehicle should have."""
 
 
-WHOLE = Part()
-
-
-def evidence(log: Path, shown: Callable[[Tick], None], part: Part = WHOLE) -> Evidence:
+def evidence(log: Path, shown: Callable[[Tick], None], part: Part) -> Evidence:
     """Go over a tape from its beginning to its end, or to that of a part.
 
     Args:
@@ -88,9 +85,9 @@ def evidence(log: Path, shown: Callable[[Tick], None], part: Part = WHOLE) -> Ev
         if part.last is not None and ahead > part.last:
             return witness.evidence(arrived=True)
         if part.first is not None and ahead <= part.first:
-            witness = Witness(navigator, tick.time_ns)  # of what was before, nothing is kept
-            continue
-        witness.take(tick)
+            witness.starts(tick.time_ns)
+        else:
+            witness.take(tick)
     return witness.evidence(arrived=False)
 
 
@@ -111,6 +108,10 @@ class Witness:
         self._heard: dict[str, Listener] = {}
         self._resets: dict[str, list[float]] = {}
         self._unfixed, self._doubted = Stretches(), Stretches()
+
+    def starts(self, time_ns: int) -> None:
+        """Times count from here; nothing is taken before."""
+        self._start_ns = time_ns
 
     def take(self, tick: Tick) -> None:
         """Take what was heard, what the navigator said then, and what it makes of it now."""
