@@ -53,8 +53,10 @@ def time_s(page):
 
 
 def scrub(page, to_s):
+    """Set the clock, and wait until that moment is shown: the next click could overtake it."""
     clock(page).fill(str(to_s))
     clock(page).press("Enter")
+    shows(page, f"{to_s:.1f} s:")
 
 
 def until(page, reached):

@@ -54,7 +54,7 @@ class Panel:
         if timeline.end_s > self._slider.max:
             self._slider.max = timeline.end_s
         self._slider.value = min(round(moment.time_s, 3), self._slider.max)
-        self._play.label = "Pause" if player.playing else "Play"
+        self._play.visible, self._pause.visible = not player.playing, player.playing
         loading = "" if timeline.complete else f"{timeline.end_s:.0f} s so far"
         self._note.content = timeline.trouble or loading
         self._note.visible = bool(self._note.content)
@@ -78,7 +78,8 @@ class Panel:
         gui, player = self._gui, self._show.player
         self._slider = gui.add_slider("time [s]", 0.0, 1.0, STEP_S, 0.0)
         self._note = gui.add_markdown("")
-        self._play = gui.add_button("Play")
+        # two buttons: what was pressed is meant, though the drive may have ended meanwhile
+        self._play, self._pause = gui.add_button("Play"), gui.add_button("Pause", visible=False)
         speed = gui.add_dropdown("speed", SPEEDS, initial_value="1x")
 
         @self._slider.on_update
@@ -88,11 +89,12 @@ class Panel:
 
         @self._play.on_click
         def _(_: viser.GuiEvent) -> None:
-            if player.playing:
-                player.go(None)
-            else:
-                player.play(self._show.timeline.end_s)
+            player.play(self._show.timeline.end_s)
             self._show.wake()
+
+        @self._pause.on_click
+        def _(_: viser.GuiEvent) -> None:
+            self._go(None)
 
         @speed.on_update
         def _(_: viser.GuiEvent) -> None:
