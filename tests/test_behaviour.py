@@ -10,7 +10,7 @@ from typing import Any
 
 import numpy as np
 import pytest
-from test_verdicts import course, decision, truth
+from test_verdicts import course, decision, estimate, truth
 
 from ion.courses import scenario_source
 from nav.messages import ActuatorTargets, Gear, LidarScan
@@ -20,6 +20,7 @@ from scenarios.behaviour import Behaviour
 from scenarios.behaviour.comfort import Comfort
 from scenarios.behaviour.commands import Commands
 from scenarios.behaviour.energy import Energy
+from scenarios.behaviour.localization import Localization
 from scenarios.behaviour.reaction import Reaction
 from scenarios.behaviour.sensing import STOPPING, Sensing
 from scenarios.behaviour.speed import Speed
@@ -379,6 +380,26 @@ def test_an_open_field_has_no_margin():
     assert watch.figures() == {"approach_margin_s": None}
 
 
+# ---------------------------------------------------------------- localization
+
+
+def test_the_error_of_the_estimates():
+    watch = Localization()
+    for k, (x, heading) in enumerate([(0.3, 0.1), (0.0, -0.2), (-0.4, 3.1 * math.pi)]):
+        believed = replace(estimate(k, x, -x), heading_rad=heading)
+        watch(episode(k, x=0.0, heading=0.1 * math.pi if k == 2 else 0.0), records(believed))
+    watch(episode(3, x=9.0), [])  # a tick without an estimate tells nothing
+    assert watch.figures() == {
+        "position_error_rms_m": pytest.approx(math.sqrt((0.18 + 0.32) / 3)),
+        "position_error_max_m": pytest.approx(math.sqrt(0.32)),
+        "heading_error_max_rad": pytest.approx(math.pi),
+    }
+
+
+def test_without_an_estimate_nothing_is_wrong():
+    assert set(Localization().figures().values()) == {None}
+
+
 # ---------------------------------------------------------------- all of them
 
 
@@ -388,7 +409,8 @@ FIGURES = {
     "steering_reversals_per_min", "energy_MJ", "energy_kJ_per_m", "transitions", "states_entered",
     "transitions_unknown", "watchdog_bites", "watchdog_latency_s", "longest_still_s",
     "over_limit_mps", "mean_moving_mps", "reversed_m", "overdrives_sensing_s",
-    "worst_overdrive_m", "blind_m", "approach_margin_s",
+    "worst_overdrive_m", "blind_m", "approach_margin_s", "position_error_rms_m",
+    "position_error_max_m", "heading_error_max_rad",
 }  # fmt: skip
 UNMEASURED = {
     "sharp_turn": {"approach_margin_s"},  # nothing stands there

@@ -7,6 +7,7 @@ from typing import Any
 from scenarios.behaviour.comfort import Comfort
 from scenarios.behaviour.commands import Commands
 from scenarios.behaviour.energy import Energy
+from scenarios.behaviour.localization import Localization
 from scenarios.behaviour.reaction import Reaction
 from scenarios.behaviour.sensing import Sensing
 from scenarios.behaviour.speed import Speed
@@ -28,6 +29,7 @@ class Behaviour:
     speed: Speed = field(default_factory=Speed)
     sensing: Sensing = field(default_factory=Sensing)
     reaction: Reaction = field(default_factory=Reaction)
+    localization: Localization = field(default_factory=Localization)
 
     def __call__(self, episode: Episode, records: Sequence[Record]) -> None:
         """Show all of them this tick."""
@@ -42,5 +44,5 @@ class Behaviour:
         """In the order of their figures."""
         return (
             self.comfort, self.commands, self.energy, self.transitions, self.standing, self.speed,
-            self.sensing, self.reaction,
+            self.sensing, self.reaction, self.localization,
         )  # fmt: skip
