@@ -10,14 +10,11 @@ Drops enter the same cells (`negative_obstacles`), and lose where steep beams me
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from itertools import pairwise
-from math import cos, sin
 
 import numpy as np
 from numpy.typing import NDArray
 
 from nav.errors import NavError
-from nav.fusion.bumps import bumps
 from nav.fusion.expected_ground import Bools, Expected, expected
 from nav.fusion.ground_profile import GroundProfile
 from nav.fusion.lattice import Ints, Lattice
@@ -28,15 +25,15 @@ from nav.fusion.scan_geometry import (
     ScanGeometry,
     Scans,
     Sweep,
-    level_points,
     placed,
-    returns,
     scan_geometry,
 )
 from nav.fusion.see_through import look
+from nav.fusion.sorting import sorted_returns
+from nav.fusion.vehicle_places import footprint, sonar_arcs, turned, wheels
 from nav.messages import Floats
 from nav.parameters.obstacle_map import ObstacleMapParameters
-from nav.parameters.vehicle import Outline, VehicleParameters
+from nav.parameters.vehicle import VehicleParameters
 
 _NO_TOP_M = -1e6
 _TOP_SHARE = 0.5
@@ -69,7 +66,7 @@ class ObstacleMap:
     def __init__(self, parameters: ObstacleMapParameters, vehicle: VehicleParameters) -> None:
         self.parameters = parameters
         self.lattice = Lattice(parameters.cell_m, round(parameters.size_m / parameters.cell_m))
-        self.ground = GroundProfile(parameters.ground, parameters.size_m, _wheels(vehicle))
+        self.ground = GroundProfile(parameters.ground, parameters.size_m, wheels(vehicle))
         shape = (self.lattice.count, self.lattice.count)
         self._confidence = np.zeros(shape, np.float32)
         self._top = np.full(shape, _NO_TOP_M, np.float32)  # above the ground profile's datum
@@ -89,9 +86,9 @@ class ObstacleMap:
         self._shown = np.zeros(shape[0] * shape[1], bool)
         """Cells in which beams show a drop; all False between ticks."""
         self._hit = parameters.confidence.hit
-        self._sonar_arcs = _sonar_arcs(vehicle)
+        self._sonar_arcs = sonar_arcs(vehicle)
         self._sonar_min_m = vehicle.sonar.min_range_m
-        self._footprint = _footprint(vehicle.outline, parameters.cell_m)
+        self._footprint = footprint(vehicle.outline, parameters.cell_m)
         self.returns_m: Floats = np.zeros((3, 0))
         """Where the returns of obstacles ended in the last tick, shape (3, n): east, north, height
         above the reference point. For those who look on."""
@@ -194,9 +191,8 @@ class ObstacleMap:
         self._follow(pose, new_bound=False)
         origin, arc = (a[heard] for a in self._sonar_arcs)
         place = (origin + arc * range_m[heard, None, None]).reshape(-1, 3)
-        x, y = _turned(place.T, pose)
-        index, inside = self.lattice.index(x, y)
-        index, first = np.unique(index[inside], return_index=True)
+        index, inside = self._cells(turned(place.T, pose))
+        index, first = np.unique(index, return_index=True)
         cells = self._confidence.ravel()
         self._held = _merged(self._held, index)
         lifted = np.minimum(cells[index] + p.confidence.sonar, p.confidence.sonar_limit)
@@ -240,64 +236,18 @@ class ObstacleMap:
     def _mark(
         self, scans: Scans, steep: int, pose: Pose, expect: Expected | None
     ) -> tuple[Ints, Floats]:
-        """Sort the returns; those of obstacles: their cells (n,) and their places (3, n).
+        """Sort the returns; those of obstacles: their cells (n,) and their places (3, n)."""
+        obstacle_m, bare_m = sorted_returns(
+            self.ground, self.parameters, scans, steep, pose, expect
+        )
+        self._bare = self._cells(bare_m)[0]
+        index, inside = self._cells(obstacle_m)
+        return index, obstacle_m[:, inside]
 
-        The first `steep` scans are those of scanners that look down. What they meet far away is
-        ground where it continues what is known.
-        """
-        beam = returns(scans, self.parameters.max_range_m)
-        points = level_points(scans, beam)
-        ends = beam.searchsorted([k * scans.range_m.shape[1] for k in range(steep + 1)]).tolist()
-        obstacle = self._obstacles(points, pose, ends, expect)
-        hits = points.take(np.flatnonzero(obstacle), axis=1)
-        index, inside = self.lattice.index(hits[0], hits[1])
-        return index[inside], hits[:, inside]
-
-    def _obstacles(
-        self, points: Floats, pose: Pose, ends: list[int], expect: Expected | None
-    ) -> Bools:
-        """Which points (3, n) are obstacles, (n,).
-
-        The points of steep scans come first, each scan's up to its end. Ground among them is
-        learned, and their heights are corrected.
-        """
-        x, y = points[0] - pose.x_m, points[1] - pose.y_m
-        distance = np.sqrt(x * x + y * y)
-        self._bare, first = _NOWHERE, slice(ends[-1])
-        if ends[-1] == 0:
-            return self.ground.classify(points, distance)[0]
-        p = self.parameters.ground
-        heights = [points[2, start:end] for start, end in pairwise(ends)]
-        bump = np.concatenate([bumps(height, p.bump_beams) for height in heights])
-        points[2, first] -= self.ground.too_high(x[first], y[first], distance[first])
-        obstacle, ground, coarse = self.ground.classify(points, distance)
-        stands_out = ground[first] & (bump > p.bump_m)
-        obstacle[first] |= stands_out
-        place = np.stack([x[first], y[first], points[2, first]])
-        met = ground[first] & ~stands_out & self._teaches(place, distance[first], expect)
-        teaching = np.zeros_like(ground)
-        teaching[first] = met
-        self.ground.learn(coarse, points[2], teaching, obstacle)
-        bare = np.flatnonzero(met & (np.abs(bump) < p.flat_m))
-        index, inside = self.lattice.index(points[0].take(bare), points[1].take(bare))
-        self._bare = index[inside]
-        # a steep beam's height is uncertain: what only such beams have seen (a bale) counts as so
-        # low that a level beam, which passes over it, does not deny it
-        points[2, first] -= p.tilt_rad * distance[first]
-        return obstacle
-
-    def _teaches(self, place: Floats, distance_m: Floats, expect: Expected | None) -> Bools:
-        """Which ends of steep beams (3, n) may teach the ground: near ones, and farther ones that
-        continue it; not those on the low ground behind an edge, nor on the wall between."""
-        near, p = distance_m < self.parameters.ground.teaching_range_m, self._negative
-        if not p.enabled:
-            return near
-        if expect:
-            near = (distance_m < p.reach_m) & expect.continues(place, near)
-        jump = np.abs(np.diff(place[2])) > p.doubt_m
-        near[1:] &= ~jump
-        near[:-1] &= ~jump
-        return near
+    def _cells(self, place_m: Floats) -> tuple[Ints, Bools]:
+        """The cells of those places (2 or 3, n) that lie in the map, and which do."""
+        index, inside = self.lattice.index(place_m[0], place_m[1])
+        return index[inside], inside
 
     def _gather(self, index: Ints, points: Floats, echoes: Echoes | None) -> None:
         """Let the cells of returns gain in `_gain` and `_top`."""
@@ -324,8 +274,7 @@ class ObstacleMap:
         """Cells where drops are shown gain, and so do their neighbours.
 
         A drop has no top, so that no level beam denies it."""
-        index, inside = self.lattice.index(place_m[0], place_m[1])
-        index = index[inside]
+        index = self._cells(place_m)[0]
         if index.size:
             count, last = self.lattice.count, self._shown.size - 1
             for beside in (0, 1, -1, count, -count):
@@ -343,8 +292,7 @@ class ObstacleMap:
         self._held = _merged(self._held, index)
 
     def _clear_footprint(self, pose: Pose) -> None:
-        index, inside = self.lattice.index(*_turned(self._footprint, pose))
-        under = index[inside]
+        under = self._cells(turned(self._footprint, pose))[0]
         self._confidence.ravel()[under] = 0.0
         self._top.ravel()[under] = _NO_TOP_M
 
@@ -383,36 +331,3 @@ def _merged(held: Ints, more: Ints) -> Ints:
     first = np.ones(both.size, bool)
     np.not_equal(both[1:], both[:-1], out=first[1:])
     return both[first]
-
-
-# ---------------------------------------------------------------------- the vehicle
-
-
-def _turned(place: Floats, pose: Pose) -> tuple[Floats, Floats]:
-    """Places of the vehicle frame, shape (2 or more, n), east and north in N."""
-    c, s = cos(pose.heading_rad), sin(pose.heading_rad)
-    x, y = place[0], place[1]
-    return pose.x_m + c * x - s * y, pose.y_m + s * x + c * y
-
-
-def _footprint(outline: Outline, cell_m: float) -> Floats:
-    """Places in the vehicle's outline, closer together than cells, shape (2, n)."""
-    length, width = outline.front_m - outline.rear_m, 2 * outline.half_width_m
-    x = np.linspace(outline.rear_m, outline.front_m, int(length / cell_m * 1.5) + 1)
-    y = np.linspace(-outline.half_width_m, outline.half_width_m, int(width / cell_m * 1.5) + 1)
-    return np.stack(np.meshgrid(x, y)).reshape(2, -1)
-
-
-def _wheels(vehicle: VehicleParameters) -> Floats:
-    """Wheels of the front axle and at the reference point, shape (4, 2), vehicle frame."""
-    half = vehicle.track_m / 2
-    return np.array([(x, y) for x in (0.0, vehicle.wheelbase_m) for y in (-half, half)])
-
-
-def _sonar_arcs(vehicle: VehicleParameters) -> tuple[Floats, Floats]:
-    """Origin (n, 1, 3) of each sonar and directions (n, 3, 3) across its cone."""
-    mounts = vehicle.sonar_mounts.values()
-    origin = np.array([mount.position_m for mount in mounts]).reshape(-1, 3)
-    across = np.array([-1.0, 0.0, 1.0]) * vehicle.sonar.half_cone_rad
-    yaw = np.array([mount.yaw_rad for mount in mounts])[:, None] + across
-    return origin[:, None, :], np.stack([np.cos(yaw), np.sin(yaw), np.zeros_like(yaw)], axis=-1)
