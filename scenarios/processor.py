@@ -15,6 +15,8 @@ X86_SETTINGS = {
     # numpy 2.4 dispatches to (an x86-64-v3 processor has none of them and takes no notice).
     "NPY_DISABLE_CPU_FEATURES": "X86_V4 AVX512_ICL AVX512_SPR",
     "NUMBA_CPU_NAME": "x86-64-v3",
+    # OpenBLAS has kernels for each kind of processor, which add up in other orders
+    "OPENBLAS_CORETYPE": "Haswell",
 }
 PACKAGES = ("ion-twin", "numpy", "mujoco", "numba")
 

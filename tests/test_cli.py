@@ -187,6 +187,27 @@ def test_numpy_takes_the_settings_without_a_warning():
     assert done.returncode == 0, done.stderr
 
 
+PRODUCT = """
+from scenarios.processor import fix_processor
+fix_processor()
+import numpy as np
+a = np.random.default_rng(0).normal(size=(61, 61))
+print((a @ a @ a).tobytes().hex())
+"""
+
+
+@pytest.mark.skipif("OPENBLAS_CORETYPE" not in settings(), reason="only on x86-64")
+def test_a_product_has_the_same_bits_whatever_the_processor():
+    """With AVX-512, OpenBLAS adds up in another order where nobody holds it back."""
+    clean = {k: v for k, v in os.environ.items() if k not in settings()}
+    found = {
+        subprocess.run([sys.executable, "-c", PRODUCT], env=env, capture_output=True).stdout
+        for env in (clean, clean | {"OPENBLAS_CORETYPE": "Zen"})
+    }
+    assert len(found) == 1
+    assert all(found)
+
+
 def tiny_route(path):
     lat = 34.9 + np.arange(3) * 0.0001
     rows = [f"{k + 1},{x:.7f},-117.0,12,{5 if k < 2 else 0}" for k, x in enumerate(lat)]
