@@ -39,6 +39,8 @@ class SpeedController:
         return min(max(throttle, 0.0), 1.0)
 
     def _stop(self, speed_mps: float) -> tuple[float, float]:
+        """Brake no weaker than for a set point that is just above, and hold."""
         p = self.parameters
         self.integral, self.ramp_mps = 0.0, 0.0
-        return 0.0, p.hold_brake if abs(speed_mps) < 1.0 else min(1.0, 0.2 + 0.1 * abs(speed_mps))
+        firm = p.brake_proportional * (abs(speed_mps) - p.brake_band_mps)
+        return 0.0, min(max(p.hold_brake, firm), 1.0)
