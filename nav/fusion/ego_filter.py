@@ -56,6 +56,8 @@ class Drive(NamedTuple):
     """Variance of the heading's growth, [rad^2/s]."""
     brisk_mps2: float = 0.0
     """How much harder the vehicle is accelerated than at other times, as the IMU feels it."""
+    braking_mps2: float | None = None
+    """What the IMU feels along the way under hard brakes, when sliding wheels tell little."""
 
 
 @dataclass
@@ -80,6 +82,8 @@ class Filter:
     def predict(self, dt_s: float, drive: Drive) -> None:
         """Drive on for `dt_s`, [s]."""
         x, y, heading, v = self.state[:4].tolist()
+        if drive.braking_mps2 is not None:
+            v = self._brake(v, drive.braking_mps2 * dt_s)
         turn = self.yaw_rate(drive) * dt_s
         ahead = dt_s * drive.cos_pitch
         middle = heading + 0.5 * turn
@@ -90,6 +94,12 @@ class Filter:
         self._behind_s += dt_s
         if self._behind_s >= COVARIANCE_S:
             self._spread(v, drive)
+
+    def _brake(self, v: float, gain_mps: float) -> float:
+        """Lose speed, down to none; the mean speed meanwhile."""
+        left = v + gain_mps
+        self.state[SPEED] = left = left if left * v > 0.0 else 0.0
+        return 0.5 * (v + left)
 
     def _spread(self, v: float, drive: Drive) -> None:
         """Let the covariance catch up with the state."""

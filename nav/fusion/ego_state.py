@@ -29,7 +29,7 @@ from nav.fusion.ego_kinematics import (
     speed_of_wheels,
 )
 from nav.fusion.ego_start import Start
-from nav.fusion.erection import Erection
+from nav.fusion.erection import GRAVITY_MPS2, Erection
 from nav.fusion.scan_geometry import Pose
 from nav.messages import (
     CompassHeading,
@@ -67,6 +67,7 @@ class _Last:
     fix: GpsFix | None = None
     direction: float = 1.0
     """-1 when the gear says that the wheels turn backwards."""
+    brake: float = 0.0
     _acceleration_mps2: float = 0.0
 
     def acceleration_mps2(self, time_ns: int) -> float:
@@ -223,10 +224,13 @@ class EgoState:
         self._last.attitude, self._last.imu_ns = attitude, sample.time_ns
         self._attitudes.add(sample.time_ns, attitude)
         motion = self.parameters.motion
-        yaw_q, felt = motion.gyro_radps**2, abs(float(sample.acceleration_mps2[0]))
-        brisk = max(felt - motion.brisk_mps2, 0.0)
+        felt, yaw_q = float(sample.acceleration_mps2[0]), motion.gyro_radps**2
+        brisk, braking = max(abs(felt) - motion.brisk_mps2, 0.0), None
+        if brisk > 0.0 and self._last.brake > motion.hard_brake:
+            brisk *= motion.braking_share
+            braking = felt + GRAVITY_MPS2 * math.sin(attitude.pitch_rad)
         cos_pitch = math.cos(attitude.pitch_rad)
-        self._drive = Drive(heading_rate(attitude), True, cos_pitch, yaw_q, brisk)
+        self._drive = Drive(heading_rate(attitude), True, cos_pitch, yaw_q, brisk, braking)
 
     def _upright(self, measured: Attitude, time_ns: int) -> Attitude:
         """Without what the accelerations have done to the gyro's vertical."""
@@ -252,14 +256,16 @@ class EgoState:
             self._drive_by_steering(state.time_ns, state.steering_rad)
         if state.gear is not Gear.NEUTRAL and not state.shifting:
             self._last.direction = -1.0 if state.gear is Gear.REVERSE else 1.0
+        self._last.brake = state.brake
         wheels = [self._last.direction * w for w in state.wheel_speed_mps.tolist()]
         if self._start is None:
             yaw_rate = self.filter.yaw_rate(self._drive)
             speed = speed_of_wheels(wheels, yaw_rate, self.vehicle)
-            if abs(speed) < self.parameters.wheels.still_mps:
+            slides = self._slides(speed)
+            if abs(speed) < self.parameters.wheels.still_mps and not slides:
                 self._correct_at_rest(state.time_ns)
             else:
-                self._correct_speed(state.time_ns, speed)
+                self._correct_speed(state.time_ns, speed, slides)
             self._last.accelerate(state.time_ns, float(self.filter.state[SPEED]))
 
     def _drive_by_steering(self, time_ns: int, steering_rad: float) -> None:
@@ -269,10 +275,16 @@ class EgoState:
         self._attitudes.add(time_ns, self._last.attitude)
         self._drive = Drive(rate, False, 1.0, yaw_q)
 
-    def _correct_speed(self, time_ns: int, speed_mps: float) -> None:
+    def _slides(self, speed_mps: float) -> bool:
+        """Whether wheels may slide under hard brakes: they turn slower then, and never faster."""
+        braking, v = self._drive.braking_mps2 is not None, float(self.filter.state[SPEED])
+        return braking and abs(speed_mps) < abs(v)
+
+    def _correct_speed(self, time_ns: int, speed_mps: float, slides: bool) -> None:
         p, v = self.parameters.wheels, float(self.filter.state[SPEED])
         scale = 1.0 + float(self.filter.state[WHEEL_SCALE])
         variance = p.sd_mps**2 + (p.sd_share * speed_mps) ** 2
+        variance += p.slide_sd_mps**2 if slides else 0.0
         turning = row((SPEED, scale), (WHEEL_SCALE, v))
         self.filter.correct("wheels", time_ns, turning, speed_mps - scale * v, variance)
 

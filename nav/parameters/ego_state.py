@@ -10,7 +10,11 @@ class Motion:
     acceleration_mps2: float
     """Unknown acceleration, [m/s^2 / sqrt(Hz)]."""
     brisk_mps2: float
-    """As much is felt along the vehicle on slopes and bumps; what is more, adds to it."""
+    """As much is felt along the vehicle on slopes and bumps; what is more, adds to it ..."""
+    braking_share: float
+    """... or this share of it under hard brakes, when the IMU tells how fast the speed falls."""
+    hard_brake: float
+    """More than this of the brake's travel can let the wheels slide."""
     slip_m: float
     """Position error by slip and ground, [m / sqrt(m)] of way."""
     gyro_radps: float
@@ -29,6 +33,8 @@ class Wheels:
     sd_mps: float
     sd_share: float
     """Added, as a share of the speed."""
+    slide_sd_mps: float
+    """Added under hard brakes, where the wheels turn slower than the vehicle drives."""
     scale_start: float
     """Standard deviation of the unknown scale (rolling radius, slip) at the start."""
     scale_drift: float
