@@ -70,6 +70,13 @@ def test_speed_controller_brakes_above_and_drives_below():
     assert brake == 0.0
 
 
+@pytest.mark.parametrize("speed_mps", [0.3, 1.0, 2.0, 4.0, 8.0, -3.0])
+def test_a_stop_brakes_no_weaker_than_a_set_point_just_above_it(speed_mps):
+    above = P.control.speed.stop_mps + 0.01
+    brake = [SpeedController(P.control.speed).step(v, speed_mps, 0.02)[1] for v in (0.0, above)]
+    assert brake[0] >= max(min(brake[1], 1.0) - 0.01, P.control.speed.hold_brake)
+
+
 @pytest.mark.parametrize("side", [1.0, -1.0])
 def test_offset_decays_on_a_straight_line(side):
     control = LowLevelController(P.control, P.vehicle.steering)

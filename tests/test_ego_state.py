@@ -82,6 +82,7 @@ class Sensors:
         self.quality, self.sd_m = GpsQuality.CONVERGED, 0.1
         self.delayed = []
         self.ahead_mps2 = 0.0  # what the accelerometer feels along the vehicle
+        self.brake = 0.0
 
     def messages(self, truth, tick, gear=Gear.LOW):
         now = tick * TICK_NS
@@ -124,7 +125,7 @@ class Sensors:
         steer = VEHICLE.steering
         share = steer.linear_m * abs(bend) + steer.quadratic_m2 * bend * bend
         angle = math.copysign(steer.limit_rad * share, bend)
-        return VehicleState(now, wheel, angle, 0.0, 0.0, gear, False)
+        return VehicleState(now, wheel, angle, 0.0, self.brake, gear, False)
 
     def compass(self, truth, now):
         e = self.errors
@@ -312,6 +313,28 @@ def test_wheels_that_slide_under_full_brakes_do_not_let_the_estimate_run_on():
     late = log.second > 10
     assert np.abs(log.speed_mps[late]).max() < 1.0
     assert np.abs(log.ahead_m[late]).max() < 0.3
+
+
+@pytest.mark.parametrize("turns", [0.9, 0.5, 0.0])
+@pytest.mark.parametrize("pitch", [0.0, 0.06, -0.06])
+def test_locked_wheels_do_not_hide_how_fast_it_still_is(turns, pitch):
+    """On a slope the accelerometer feels gravity, too."""
+
+    def plan(second):
+        braked = max(8.0 - 5.0 * (second - 20.0), 0.0)
+        return min(max(3.0 * (second - 3.0), 0.0), 8.0, braked), 0.0
+
+    def script(second, sensors, truth):
+        truth.pitch = pitch
+        braking = 20.0 <= second < 21.6
+        sensors.brake = 1.0 if second >= 19.8 else 0.0
+        sensors.ahead_mps2 = -9.81 * math.sin(pitch) - (5.0 if braking else 0.0)
+        sensors.errors = replace(sensors.errors, wheel_scale=turns - 1.0 if braking else 0.02)
+
+    log = run(Sensors(6), 30, plan, script=script)
+    late = log.second > 10
+    assert np.abs(log.speed_mps[late]).max() < 0.4
+    assert np.abs(log.ahead_m[late]).max() < 0.25
 
 
 def test_reverse_gear_is_driven_backwards():
