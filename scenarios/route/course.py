@@ -6,6 +6,7 @@ from typing import NamedTuple
 import numpy as np
 
 from nav.route import rddf
+from nav.route.rddf import Route
 from scenarios.course import Course, Floats, route_points_m
 from scenarios.planned import Thing
 from scenarios.route.placed import joined, moved, placed, room
@@ -67,34 +68,44 @@ def build(
     first = int(whole.number[0]) if first is None else first
     last = int(whole.number[-1]) if last is None else last
     route = whole.stretch(first, last)
-    anchor = float(route.latitude_deg[0]), float(route.longitude_deg[0])
+    anchor = _first(route)
     waypoint_m = route_points_m(route, anchor)
+    things = moved(given.things, _first(whole), anchor)
     corridor = waypoint_m, route.half_width_m
-    waves = tuple(Octave(o.wavelength_m, o.amplitude_m * given.bumps) for o in DESERT)
-    ground = RollingGround(seed, waves)
-    origin = float(whole.latitude_deg[0]), float(whole.longitude_deg[0])
-    things = moved(given.things, origin, anchor)
-    world = World(
-        terrain=ground,
-        obstacles=(),
-        friction=float(generator(seed, "friction").uniform(*FRICTION)),
-        anchor=anchor,
-        start=_start(waypoint_m),
-        satellites=SKY,
-        scenery=_scenery(seed, ground, things, corridor if given.roadside else None),
-        room=_room(things, given.roadside),
-    )
     return Course(
         name="route",
         title=f"{name}, waypoints {first} to {last}.",
         seed=seed,
-        world=world,
+        world=_world(seed, anchor, corridor, given._replace(things=things)),
         route_text=_lines(text, first, last),
         route_name=name,
         waypoint_m=waypoint_m,
         half_width_m=route.half_width_m,
         speed_mps=route.speed_mps,
         time_limit_s=_time_limit_s(waypoint_m, route.speed_mps),
+    )
+
+
+def _first(route: Route) -> tuple[float, float]:
+    """Latitude and longitude of the first waypoint, degrees."""
+    return float(route.latitude_deg[0]), float(route.longitude_deg[0])
+
+
+def _world(
+    seed: int, anchor: tuple[float, float], corridor: tuple[Floats, Floats], given: Surroundings
+) -> World:
+    """Ground, things and sky along a corridor: waypoints and half widths, [m] from the anchor."""
+    waves = tuple(Octave(o.wavelength_m, o.amplitude_m * given.bumps) for o in DESERT)
+    ground = RollingGround(seed, waves)
+    return World(
+        terrain=ground,
+        obstacles=(),
+        friction=float(generator(seed, "friction").uniform(*FRICTION)),
+        anchor=anchor,
+        start=_start(corridor[0]),
+        satellites=SKY,
+        scenery=_scenery(seed, ground, given.things, corridor if given.roadside else None),
+        room=_room(given.things, given.roadside),
     )
 
 
