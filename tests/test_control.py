@@ -8,7 +8,7 @@ import pytest
 from nav.control.limits import limited
 from nav.control.low_level import LowLevelController
 from nav.control.speed import SpeedController
-from nav.messages import EgoEstimate, FollowPath, Gear, VehicleState
+from nav.messages import EgoEstimate, FollowPath, Gear, UnitOperation, VehicleState
 from nav.parameters import parameters_from
 from nav.steering_circle import curvature, steering_angle
 from scenarios.parameter_files import parameter_texts
@@ -58,6 +58,14 @@ def test_no_throttle_while_the_gear_is_shifting():
     control.command_is(FollowPath(0, points, 3.0))
     assert control.step(TICK_NS, ego(speed=0.0), vehicle(shifting=True)).throttle == 0.0
     assert control.step(TICK_NS, ego(speed=0.0), vehicle(gear=Gear.NEUTRAL)).throttle == 0.0
+
+
+def test_another_gear_is_asked_for_at_a_stand_only():
+    control = LowLevelController(P.control, P.vehicle.steering)
+    control.command_is(UnitOperation(0, Gear.REVERSE, 0.0, 3.0, 1.0))
+    rolling = control.step(TICK_NS, ego(speed=1.0), vehicle())
+    assert (rolling.gear, rolling.brake > 0.0) == (Gear.HIGH, True)
+    assert control.step(2 * TICK_NS, ego(speed=0.0), vehicle()).gear == Gear.REVERSE
 
 
 def test_speed_controller_brakes_above_and_drives_below():

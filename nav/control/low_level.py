@@ -88,7 +88,7 @@ class LowLevelController:
         bend = bend_ahead(self.curve, error.arc_m, path.preview_s * ego.speed_mps)
         curvature = curvature_command(error, bend, ego.speed_mps, path)
         steering = steering_angle(curvature, self.steering)
-        set_point = command.speed_mps if self._engage(Gear.HIGH, vehicle) else 0.0
+        set_point = command.speed_mps if self._engage(Gear.HIGH, ego, vehicle) else 0.0
         if abs(steering - vehicle.steering_rad) > self.parameters.steering_lag_rad:
             set_point = min(set_point, max(ego.speed_mps, self.parameters.steering_lag_mps))
         throttle, brake = self.speed.step(set_point, ego.speed_mps, TICK_S)
@@ -105,15 +105,16 @@ class LowLevelController:
         p = self.parameters.operations
         off = abs(command.steering_rad - vehicle.steering_rad)
         steered = off < p.steered_rad or speed > p.rolling_mps
-        goes = self._engage(command.gear, vehicle) and steered
+        goes = self._engage(command.gear, ego, vehicle) and steered
         reachable = sqrt(2.0 * p.braking_mps2 * max(command.remaining_m, 0.0))
         set_point = min(command.speed_mps, reachable) if goes else 0.0
         throttle, brake = self.speed.step(set_point, speed, TICK_S)
         return self._limited(ego.time_ns, command.steering_rad, throttle, brake)
 
-    def _engage(self, gear: Gear, vehicle: VehicleState) -> bool:
-        """Ask for a gear; whether it is in."""
-        self.gear = gear
+    def _engage(self, gear: Gear, ego: EgoEstimate, vehicle: VehicleState) -> bool:
+        """Ask for a gear, for another one at a stand only; whether it is in."""
+        if abs(ego.speed_mps) < self.parameters.speed.stand_mps:
+            self.gear = gear
         return vehicle.gear == gear and not vehicle.shifting
 
     def _is_fresh(self, time_ns: int) -> bool:
