@@ -12,6 +12,7 @@ from nav.messages import EgoEstimate, FollowPath, Gear, UnitOperation, VehicleSt
 from nav.parameters import parameters_from
 from nav.steering_circle import curvature, steering_angle
 from scenarios.parameter_files import parameter_texts
+from scenarios.scenario_file import read_scenario
 
 P = parameters_from(parameter_texts())
 TICK_NS = 20_000_000
@@ -83,6 +84,24 @@ def test_a_stop_brakes_no_weaker_than_a_set_point_just_above_it(speed_mps):
     above = P.control.speed.stop_mps + 0.01
     brake = [SpeedController(P.control.speed).step(v, speed_mps, 0.02)[1] for v in (0.0, above)]
     assert brake[0] >= max(min(brake[1], 1.0) - 0.01, P.control.speed.hold_brake)
+
+
+def test_the_twin_holds_its_speed_without_overshoot(tmp_path):
+    """A bound is what can be stopped for; half a metre a second more is 1.3 m of way."""
+    file = tmp_path / "straight.toml"
+    file.write_text(
+        'title = "Straight on."\ncourse = "trial"\ntime_limit_s = 60.0\n'
+        "waypoints = [[0, 0, 2.7, 25], [150, 0, 2.7, 25], [300, 0, 2.7, 0]]\n"
+    )
+    episode, over_mps, least_mps = read_scenario(file).episode(0), 0.0, 99.0
+    while episode.time_s < 16.0:
+        episode.tick()
+        if episode.decision:
+            over_mps = max(over_mps, episode.truth.speed_mps - episode.decision.speed_mps)
+        if episode.time_s > 12.0:
+            least_mps = min(least_mps, episode.truth.speed_mps)
+    assert over_mps < 0.2
+    assert least_mps > P.planning.speed.open_mps - 0.3
 
 
 @pytest.mark.parametrize("side", [1.0, -1.0])

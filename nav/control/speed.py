@@ -33,14 +33,13 @@ class SpeedController:
         base = p.feedforward + p.feedforward_per_mps * self.ramp_mps + p.proportional * error
         base += p.feedforward_per_mps2 * p.acceleration_mps2 if rises else 0.0
         throttle = base + self.integral
-        if 0.0 < throttle < 1.0:
+        if 0.0 < throttle < 1.0 and not rises:  # rising, it lags for a while only
             wound = self.integral + p.integral * error * dt_s
             self.integral = min(max(wound, -p.integral_limit), p.integral_limit)
         return min(max(throttle, 0.0), 1.0)
 
     def _stop(self, speed_mps: float) -> tuple[float, float]:
-        """Brake no weaker than for a set point that is just above, and hold."""
+        """Brake with all force but for the last metre a second, and hold."""
         p = self.parameters
         self.integral, self.ramp_mps = 0.0, 0.0
-        firm = p.brake_proportional * (abs(speed_mps) - p.brake_band_mps)
-        return 0.0, min(max(p.hold_brake, firm), 1.0)
+        return 0.0, min(max(p.hold_brake, abs(speed_mps) - p.brake_band_mps), 1.0)

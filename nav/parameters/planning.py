@@ -88,7 +88,7 @@ class SpeedProfileParameters:
     open_limit_mps: float
     """... this, and its corridor ..."""
     open_half_width_m: float
-    """... narrower than this: nothing but a post leaves a way past it. A post is seen at 11 m."""
+    """... narrower than this: few things leave a way past them. Those are seen at 11 to 12 m."""
     wide_mps: float
     """Where the limit is as high, and the corridor wider."""
     limit_factor: float

@@ -75,6 +75,6 @@ def _unwinding(s: Situation, p: Parameters) -> float:
 
 def _through_narrows(s: Situation, p: Parameters) -> float:
     """Speed from which braking reaches `narrow_mps` where the safe boundary begins: none in sight
-    may begin behind the horizon. The 9.4 m/s that this leaves is what a post can be stopped for."""
+    may begin behind the horizon."""
     speed = p.planning.speed
     return sqrt(speed.narrow_mps**2 + 2.0 * speed.braking_mps2 * s.route_clear.safe_m)
