@@ -11,7 +11,7 @@ from ion.view.tune.terms import Place
 from ion.view.tune.tuning import Tuning
 from scenarios.parameter_files import parameter_texts
 
-AT_S = 16.0
+AT_S = 15.4
 CAREFUL = (Place("speed", "anti_collision", "D1_m"), "L", (20.0, 39.0))
 
 

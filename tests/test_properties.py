@@ -42,7 +42,7 @@ from scenarios.dead_end.course import build
 from scenarios.episode import Episode
 from scenarios.parameter_files import parameter_texts
 
-AVOIDING = 700
+AVOIDING = 650
 STARTS = {0: "", 120: "path_point_keeping", AVOIDING: "obstacle_avoidance"}
 """Ticks of the drive at which the meddling begins, and the navigator's state there."""
 TICKS = 180
