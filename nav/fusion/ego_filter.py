@@ -98,7 +98,9 @@ class Filter:
     def _brake(self, v: float, gain_mps: float) -> float:
         """Lose speed, down to none; the mean speed meanwhile."""
         left = v + gain_mps
-        self.state[SPEED] = left = left if left * v > 0.0 else 0.0
+        if left * v <= 0.0:
+            left = 0.0
+        self.state[SPEED] = left
         return 0.5 * (v + left)
 
     def _spread(self, v: float, drive: Drive) -> None:

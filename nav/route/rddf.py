@@ -49,6 +49,11 @@ class Route:
     def __len__(self) -> int:
         return len(self.number)
 
+    @property
+    def first_deg(self) -> tuple[float, float]:
+        """Latitude and longitude of the first waypoint."""
+        return float(self.latitude_deg[0]), float(self.longitude_deg[0])
+
     def _columns(self) -> tuple[Floats, ...]:
         return self.latitude_deg, self.longitude_deg, self.half_width_m, self.speed_mps
 

@@ -29,7 +29,7 @@ class Waypoints:
 
 def route_frame(route: Route) -> Frame:
     """Frame N: anchored at the route's first waypoint."""
-    return Frame(float(route.latitude_deg[0]), float(route.longitude_deg[0]))
+    return Frame(*route.first_deg)
 
 
 def waypoints_of(route: Route, frame: Frame) -> Waypoints:

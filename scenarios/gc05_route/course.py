@@ -34,7 +34,7 @@ def build(seed: int, first: int | None = None, last: int | None = None) -> Cours
     scenario, whole = load_scenario("gc05_route"), rddf.parse(text(), NAME)
     first, last = first or 1, last or len(whole)
     route = whole.stretch(first, last)
-    anchor = float(whole.latitude_deg[0]), float(whole.longitude_deg[0])
+    anchor = whole.first_deg
     waypoint_m = route_points_m(whole, anchor)
     corridor = Corridor.of(waypoint_m, whole.half_width_m)
     start_m, end_m = corridor.waypoint(first), corridor.waypoint(last)

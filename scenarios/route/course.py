@@ -6,7 +6,6 @@ from typing import NamedTuple
 import numpy as np
 
 from nav.route import rddf
-from nav.route.rddf import Route
 from scenarios.course import Course, Floats, route_points_m
 from scenarios.planned import Thing
 from scenarios.route.placed import joined, moved, placed, room
@@ -68,9 +67,9 @@ def build(
     first = int(whole.number[0]) if first is None else first
     last = int(whole.number[-1]) if last is None else last
     route = whole.stretch(first, last)
-    anchor = _first(route)
+    anchor = route.first_deg
     waypoint_m = route_points_m(route, anchor)
-    things = moved(given.things, _first(whole), anchor)
+    things = moved(given.things, whole.first_deg, anchor)
     corridor = waypoint_m, route.half_width_m
     return Course(
         name="route",
@@ -84,11 +83,6 @@ def build(
         speed_mps=route.speed_mps,
         time_limit_s=_time_limit_s(waypoint_m, route.speed_mps),
     )
-
-
-def _first(route: Route) -> tuple[float, float]:
-    """Latitude and longitude of the first waypoint, degrees."""
-    return float(route.latitude_deg[0]), float(route.longitude_deg[0])
 
 
 def _world(
