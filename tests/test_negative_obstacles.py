@@ -218,3 +218,21 @@ def test_a_drop_is_wide():
     wide = _in_wide_runs(scan, beam, deep, PARAMETERS.negative.least_beams)
     assert np.flatnonzero(wide).tolist() == list(range(28, 36))
     assert not _in_wide_runs(scan, beam, np.zeros(40, bool), 8).any()
+
+
+def test_who_comes_back_finds_the_drop_that_he_saw():
+    world = World(across(1.0))
+    world.drive(EDGE_M - 12.0)
+    seen = world.drops().T.tolist()
+    world.chart.recenter(EDGE_M + 45.0, 0.0)
+    assert world.drops().size == 0
+    world.chart.recenter(EDGE_M - 12.0, 0.0)
+    assert world.drops().T.tolist() == seen
+
+
+def test_drops_far_behind_are_forgotten():
+    world = World(across(1.0))
+    world.drive(EDGE_M - 12.0)
+    for x in (EDGE_M + 45.0, EDGE_M + 200.0, EDGE_M - 12.0):
+        world.chart.recenter(x, 0.0)
+    assert world.drops().size == 0

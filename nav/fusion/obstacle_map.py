@@ -5,7 +5,8 @@ quickly where a beam passes through it no higher than its known top, slowly wher
 its distance but not in it (a wall seen from a pose that has drifted since). What no beam reaches
 keeps its confidence, so blind corners persist, and so does what is lower than the level beams.
 Returns near a track of the radar gain more (`radar`), and echoes of sonars gain by themselves.
-Drops enter the same cells (`negative_obstacles`), and lose where steep beams meet ground.
+Drops enter the same cells (`negative_obstacles`), and lose where steep beams meet ground. They
+alone are remembered when the map moves on (`remembered_drops`).
 """
 
 from collections.abc import Sequence
@@ -20,6 +21,7 @@ from nav.fusion.ground_profile import GroundProfile
 from nav.fusion.lattice import Ints, Lattice
 from nav.fusion.negative_obstacles import NOTHING, drops
 from nav.fusion.radar import Echoes
+from nav.fusion.remembered_drops import NO_DROPS, Drops
 from nav.fusion.scan_geometry import (
     Pose,
     ScanGeometry,
@@ -85,6 +87,8 @@ class ObstacleMap:
         self._negative = parameters.negative
         self._shown = np.zeros(shape[0] * shape[1], bool)
         """Cells in which beams show a drop; all False between ticks."""
+        self._drops = NO_DROPS
+        """Outside the map."""
         self._hit = parameters.confidence.hit
         self._sonar_arcs = sonar_arcs(vehicle)
         self._sonar_min_m = vehicle.sonar.min_range_m
@@ -147,12 +151,26 @@ class ObstacleMap:
         if self._placed and self.lattice.offset_m(x_m, y_m) <= self.parameters.scroll_m:
             return
         self._placed = True
-        to = self.lattice.centred(x_m, y_m)
+        to, drops = self.lattice.centred(x_m, y_m), self._drops.with_more(self._held_drops())
         self._confidence = self.lattice.moved(self._confidence, to, 0.0)
         self._top = self.lattice.moved(self._top, to, _NO_TOP_M)
-        self._held = np.flatnonzero(self._confidence > 0.0)
         self.lattice = to
+        self._restore(drops)
+        self._drops = drops.outside(to, self._negative.remember_m)
+        self._held = np.flatnonzero(self._confidence > 0.0)
         self.ground.recentre(x_m, y_m)
+
+    def _held_drops(self) -> Drops:
+        """The drops that the map holds: confidence without a top."""
+        tops, cells = self._top.ravel(), self._confidence.ravel()
+        index = self._held[(tops[self._held] == _NO_TOP_M) & (cells[self._held] > 0.0)]
+        return Drops(np.stack(self.lattice.centre_m(index)), cells[index])
+
+    def _restore(self, drops: Drops) -> None:
+        """Let drops be in the map; in those that never left it, nothing changes."""
+        index, inside = self._cells(drops.position_m)
+        cells = self._confidence.ravel()
+        cells[index] = np.maximum(cells[index], drops.confidence[inside])
 
     def integrate(self, sweeps: Sequence[Sweep], echoes: Echoes | None = None) -> None:
         """Take in the scans of one tick, oldest first, each with the estimate at its time; and

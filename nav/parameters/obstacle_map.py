@@ -100,6 +100,8 @@ class NegativeParameters:
     """Confidence that a tick adds where it shows a drop."""
     clear: float
     """Confidence that a drop loses, a tick, where a steep beam meets ground in its cell."""
+    remember_m: float
+    """A drop is forgotten so far behind the map's edge."""
 
     def __post_init__(self) -> None:
         _positive(self)
