@@ -12,6 +12,7 @@ import pytest
 from test_obstacle_map import GEOMETRY, PARAMETERS, VEHICLE
 
 from nav.fusion.expected_ground import expected
+from nav.fusion.ground_profile import UNKNOWN_M
 from nav.fusion.negative_obstacles import _in_wide_runs
 from nav.fusion.obstacle_map import ObstacleMap
 from nav.fusion.scan_geometry import Pose, Sweep, placed
@@ -128,6 +129,21 @@ def test_what_stands_up_beyond_the_known_ground_teaches_nothing():
     ahead = expected(world.chart.ground, SEES.negative)
     places = np.array([[26.0, 26.0], [0.0, 0.0], [0.2, 0.6]])
     assert ahead.continues(places, np.ones(2, bool)).tolist() == [True, False]
+
+
+def test_the_low_ground_behind_an_edge_teaches_nothing():
+    """Who brakes before an edge looks down on what lies behind it."""
+    world = World(across(0.6))
+    world.drive(EDGE_M - 14.0)
+    pose, ground_m = stand(world.terrain, EDGE_M - 10.0)
+    pose = pose._replace(pitch_rad=0.03)
+    for k in range(3):
+        scan = world.scan("lidar_roof", pose, ground_m, 10**10 + k * 50_000_000)
+        world.chart.integrate([Sweep(scan, pose)])
+    profile = world.chart.ground
+    x, y = np.meshgrid(np.arange(EDGE_M + 2.0, EDGE_M + 12.0), np.arange(-4.0, 5.0))
+    index, _ = profile.lattice.index(x.ravel(), y.ravel())
+    assert (profile.height_m.ravel()[index] >= UNKNOWN_M).all()
 
 
 def test_a_drop_on_rolling_ground_is_found():

@@ -21,8 +21,8 @@ Bools = NDArray[np.bool_]
 LEAST_TOGETHER = 4
 """Known blocks among a block and its eight neighbours, itself included."""
 LEAST_BLOCKS, LEAST_FAR, SPREAD = 12, 4, 1e-3
-"""So much of the ground ahead must be known, and of its far part: where the beams have been thrown
-far ahead, nothing is said. And what keeps the equations regular."""
+"""So much of the ground ahead must be known for a plane, and of its far part to tell drops by: not
+where the beams have been thrown far ahead. And what keeps the equations regular."""
 
 
 class Plane(NamedTuple):
@@ -33,6 +33,8 @@ class Plane(NamedTuple):
     east: float
     north: float
     """Slopes."""
+    far: bool
+    """Whether it rests on ground far ahead, too."""
 
     def rise(self, east: Floats, north: Floats) -> Floats:
         """What the slopes make of a way."""
@@ -50,15 +52,15 @@ def _plane_of(ground: GroundProfile, p: NegativeParameters) -> Plane | None:
     forward = ground.ahead[0] * east + ground.ahead[1] * north
     near, far = p.frontier_m
     cells = np.flatnonzero((height < 0.5 * UNKNOWN_M) & (forward > near))
-    far_out = np.count_nonzero(forward.ravel()[cells] > far)
-    if cells.size < LEAST_BLOCKS or far_out < LEAST_FAR:
+    far_out = int(np.count_nonzero(forward.ravel()[cells] > far))
+    if cells.size < LEAST_BLOCKS:
         return None
     row, column = np.divmod(cells, len(height))
     A = np.ones((3, cells.size))
     A[1], A[2] = east[column], north[row, 0]
     normal = A @ A.T + SPREAD * np.eye(3)
     lifted = height.ravel()[cells] - ground.vehicle_m
-    return Plane(*np.linalg.solve(normal, A @ lifted).tolist())
+    return Plane(*np.linalg.solve(normal, A @ lifted).tolist(), far=far_out >= LEAST_FAR)
 
 
 class Floor(NamedTuple):

@@ -43,6 +43,8 @@ def drops(scans: Scans, expect: Expected, pose: Pose) -> Floats:
         East and north in N, shape (2, n), [m]: all marks of all beams.
     """
     p, plane = expect.parameters, expect.plane
+    if not plane.far:
+        return NOTHING
     inner = _inner(scans, p.fan_rad)
     origin, way = _rays(scans, inner, pose, expect.ground)
     over = plane.over(origin)  # (k, 1)

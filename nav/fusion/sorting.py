@@ -94,7 +94,8 @@ def _teaches(
     if not p.enabled:
         return near
     if expect:
-        near = (distance_m < p.reach_m) & expect.continues(place, near)
+        within = distance_m < p.reach_m if expect.plane.far else near
+        near = within & expect.continues(place, near)
     jump = np.abs(np.diff(place[2])) > p.doubt_m
     near[1:] &= ~jump
     near[:-1] &= ~jump
