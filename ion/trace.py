@@ -16,10 +16,14 @@ if TYPE_CHECKING:
 Floats = NDArray[np.float64]
 Cells = NDArray[np.int32]
 
+NO_CELLS: Cells = np.zeros((0, 2), np.int32)
 EVERY = 10
 """Ticks between two places: 0.2 s."""
 MERGED = 200
 """Reports of cells that are kept side by side before those that repeat are dropped."""
+MOST = 20_000
+"""Cells among which they are looked for: those of the last half mile, or so. What lies farther back
+is let be, so that the last mile costs no more than the first."""
 
 
 class Trace:
@@ -28,7 +32,8 @@ class Trace:
     def __init__(self) -> None:
         self._tick = 0
         self._places = array("d")
-        self._cells: Cells = np.zeros((0, 2), np.int32)
+        self._past: list[Cells] = []
+        self._recent = NO_CELLS
         self._new: list[Cells] = []
         self._cell_m = 1.0
 
@@ -53,8 +58,12 @@ class Trace:
     def cells_m(self) -> Floats:
         """Shape (m, 2): all cells that were ever occupied, route frame N, [m]."""
         self._merge()
-        return (self._cells.astype(np.float64) + 0.5) * self._cell_m
+        cells = np.unique(np.concatenate([*self._past, self._recent]), axis=0)
+        return (cells.astype(np.float64) + 0.5) * self._cell_m
 
     def _merge(self) -> None:
-        self._cells = np.unique(np.concatenate([self._cells, *self._new]), axis=0)
+        self._recent = np.unique(np.concatenate([self._recent, *self._new]), axis=0)
         self._new = []
+        if len(self._recent) > MOST:
+            self._past.append(self._recent)
+            self._recent = NO_CELLS
