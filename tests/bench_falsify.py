@@ -23,13 +23,13 @@ from typing import Any, NamedTuple
 import planted
 from planted import PLANTED, scenario_of
 
+from ion.code import code
 from ion.falsify.drives import Drives
 from ion.falsify.samplers import SAMPLERS
 from ion.falsify.search import Episode, search
 from ion.falsify.shrink import shrunk
 from ion.falsify.space import Point, Space, usual
 from ion.falsify.written import write
-from ion.suite.cases import code
 from scenarios.batch import many
 from scenarios.scenario_file import read_scenario
 

@@ -10,6 +10,7 @@ from rich.console import Console
 from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeRemainingColumn
 from rich.table import Table
 
+from ion.code import code
 from ion.falsify.drives import BrokenDriveError, Drives
 from ion.falsify.options import Asked, Options, asked_of
 from ion.falsify.picture import draw
@@ -18,7 +19,6 @@ from ion.falsify.search import Drive, Episode, search
 from ion.falsify.shrink import Shrunk, shrunk
 from ion.falsify.space import Point, usual
 from ion.falsify.written import seeds_said, write
-from ion.suite.cases import code
 from ion.telling import Result
 from scenarios.batch import workers
 from scenarios.scenario_file import read_scenario

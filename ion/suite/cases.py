@@ -3,19 +3,13 @@
 from collections.abc import Sequence
 from dataclasses import dataclass
 from hashlib import sha256
-from importlib.resources import files
-from importlib.resources.abc import Traversable
 from pathlib import Path
 from typing import Any, NamedTuple
 
 from ion.courses import Source
 from ion.job import Job
-from scenarios.processor import fingerprint
 from scenarios.scenario_file import ScenarioFile
 from scenarios.suites import Suite
-
-PACKAGES = ("nav", "twin", "scenarios", "models")
-"""What a result depends on."""
 
 
 class Case(NamedTuple):
@@ -60,19 +54,3 @@ def cases_of(suite: Suite) -> list[Case]:
         for run in suite.runs
         if k < len(run.seeds)
     ]
-
-
-def code() -> str:
-    """What is the same as long as the code and the processor are."""
-    found = sha256(repr(sorted(fingerprint().items())).encode())
-    for package in PACKAGES:
-        _add(found, files(package))
-    return found.hexdigest()
-
-
-def _add(found: Any, folder: Traversable) -> None:
-    for item in sorted(folder.iterdir(), key=lambda item: item.name):
-        if item.is_dir() and item.name != "__pycache__":
-            _add(found, item)
-        elif item.name.endswith((".py", ".toml", ".xml")):
-            found.update(item.name.encode() + item.read_bytes())

@@ -10,8 +10,9 @@ from functools import partial
 from pathlib import Path
 from typing import Any
 
+from ion.code import code
 from ion.errors import UsageError
-from ion.suite.cases import Work, code
+from ion.suite.cases import Work
 from ion.suite.remote import drive_apart
 from ion.telling import Result
 from scenarios.interrupts import interrupts

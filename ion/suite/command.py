@@ -9,9 +9,10 @@ from typing import Any
 from rich.console import Console
 from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeRemainingColumn
 
+from ion.code import code
 from ion.suite import junit
 from ion.suite.baseline import Changes, changes, read
-from ion.suite.cases import Case, Work, cases_of, code
+from ion.suite.cases import Case, Work, cases_of
 from ion.suite.cluster import connected, on_cluster
 from ion.suite.mutants import Hunt, caught_by
 from ion.suite.options import Options, suite_of

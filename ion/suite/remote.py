@@ -42,7 +42,7 @@ def drive_apart(work: Any, number: int, code: str) -> dict[str, Any]:
 
 
 def _drive(work: Any, number: int, code_asked: str) -> dict[str, Any]:
-    from ion.suite.cases import code
+    from ion.code import code
 
     if code() != code_asked:
         raise RuntimeError("this worker has another version of ION, or another kind of processor")
