@@ -42,12 +42,13 @@ class Job:
             NavError: the route cannot be driven.
             OSError: tape or map cannot be written.
         """
+        from ion.code import code
         from ion.trace import Trace
         from scenarios.behaviour import Behaviour
         from scenarios.events import Events
 
         episode = self.source.episode(seed, self.ablate)
-        start = Checkpoint(self, seed, 0, episode, Trace(), Events(), Behaviour())
+        start = Checkpoint(self, seed, 0, episode, Trace(), Events(), Behaviour(), code())
         return self.go_on(start, watches)
 
     def go_on(self, start: "Checkpoint", watches: Sequence[Watch] = ()) -> dict[str, Any]:
@@ -61,7 +62,7 @@ class Job:
         from scenarios.events import as_rows
         from scenarios.true_states import TrueStates
 
-        _, seed, _, episode, trace, events, behaviour = start
+        _, seed, _, episode, trace, events, behaviour, _ = start
         course, tape = episode.course, self._log(episode.course, seed)
         with self._tape(start, tape) as writer:
             told = [*watches, trace, events, behaviour, TrueStates(writer)]

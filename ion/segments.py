@@ -94,6 +94,8 @@ class Checkpoint(NamedTuple):
     """... what has happened, ..."""
     behaviour: "Behaviour"
     """... and how it was driven."""
+    code: str
+    """What it is driven by: `ion.code`."""
 
 
 class Checkpoints:

@@ -141,6 +141,14 @@ def test_resume_says_what_is_wrong(monkeypatch, capsys, tmp_path):
         metadata(tmp_path)
 
 
+def test_other_code_does_not_go_on(short, monkeypatch, capsys, tmp_path):
+    source = scenario_source("gc05_route", {"first": 300, "last": 304})
+    folder = Path(drive_until(Job(source, tmp_path, "inputs"), 60.0)["log"])
+    start = last_checkpoint(folder)
+    save(folder / CHECKPOINT, start._replace(code="of yesterday"))
+    assert "begun by other code" in refused(monkeypatch, capsys, "drive", "--resume", folder)
+
+
 SHORT = "from ion import segments; segments.EVERY_M = 40.0; segments.LONG_M = 100.0;"
 DRIVE = "from ion.__main__ import main; import sys; sys.argv = {}; main()"
 

@@ -89,8 +89,9 @@ def checkpoint_of(options: Options) -> "Checkpoint":
     """What `--resume` goes on from, its log in the folder that was named.
 
     Raises:
-        UsageError: another option beside it, or no checkpoint of ours there.
+        UsageError: another option beside it, no checkpoint of ours there, or one of other code.
     """
+    from ion.code import code
     from ion.segments import last_checkpoint
     from scenarios.checkpoint import CheckpointError
 
@@ -101,6 +102,11 @@ def checkpoint_of(options: Options) -> "Checkpoint":
         start = last_checkpoint(folder)
     except CheckpointError as error:
         raise UsageError(f"--resume {error}") from error
+    if start.code != code():
+        raise UsageError(
+            f"--resume {folder}: was begun by other code or on another kind of processor; "
+            "expected the same, or a drive from the start"
+        )
     folder, job = folder.resolve(), start.job
     if job.path(start.seed, "").name != folder.name:
         named = job.path(start.seed, "").name
