@@ -170,11 +170,10 @@ def _view(vehicle: str) -> Any:
 
 
 def _title(course: str, seed: int, figures: dict[str, Any]) -> str:
-    from ion.telling import way
+    from ion.telling import duration, way
 
-    minutes, seconds = divmod(round(figures["sim_time_s"]), 60)
     gates = f"{figures['gates_passed']} of {figures['gates_total']} gates, "
     return (
         f"{course}\nSeed {seed}: {figures['outcome']}, {gates if figures['gates_total'] else ''}"
-        f"{way(figures['distance_m'])} in {minutes}:{seconds:02d} min"
+        f"{way(figures['distance_m'])} in {duration(figures['sim_time_s'])}"
     )

@@ -1,6 +1,7 @@
 """The layers of a map, from the ground up."""
 
 from collections.abc import Sequence
+from math import ceil
 from typing import NamedTuple
 
 import numpy as np
@@ -55,8 +56,12 @@ def draw_scene(axes: Axes, scene: Scene, detail: bool) -> LineCollection:
         ends = np.stack([gate.left_m, gate.right_m])
         color = scene.gate_color(k)
         axes.plot(*ends.T, "-", color=color, linewidth=2.2, solid_capstyle="round", zorder=5)
-    top_mph = float(scene.course.speed_mps.max()) / MPH_MPS
-    return _draw_track(axes, scene.track, 3.0 if detail else 1.7, top_mph)
+    return _draw_track(axes, scene.track, 3.0 if detail else 1.7, _top_mph(scene.track))
+
+
+def _top_mph(track: Floats) -> float:
+    """The end of the colours, in fives: drives of one course have the same, nearly always."""
+    return 5.0 * max(ceil(track[:, 2].max(initial=0.0) / MPH_MPS / 5.0), 1)
 
 
 def draw_corridor(axes: Axes, P: Floats, width: Floats, edge_m: float) -> None:

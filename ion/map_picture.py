@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from ion.map_layers import Scene, draw_scene
 from ion.style import AHEAD, DPI, INK, MISSED, PAPER, PASSED, SEEN, TRACK, new_figure
 from ion.trace import Trace
-from nav.route.rddf import FOOT_M
+from nav.route.rddf import FOOT_M, MILE_M
 from scenarios.course import Course
 from scenarios.verdicts import Judge
 from scenarios.verdicts.shapes import Pose
@@ -22,8 +22,11 @@ Box = tuple[float, float, float, float]
 """Left, right, bottom, top, [m]."""
 
 WIDTH_IN, DETAIL_IN = 12.0, 2.9
+DETAILS = 3
 MARGIN_LENGTHS = 4.6
-"""Around course and trajectory, in lengths of the vehicle."""
+"""Around course and trajectory, in lengths of the vehicle ..."""
+MARGIN_SHARE = 0.015
+"""... but at least this share of a long one, or its ends' marks would be cut off."""
 DETAIL_LENGTHS = (6.9, 3.6)
 """Half width and half height of a detail."""
 NUMBER_LENGTHS = 2.3
@@ -49,9 +52,12 @@ def draw_map(course: Course, trace: Trace, judge: Judge, title: str, path: Path)
     passed = frozenset(judge.gates.passed)
     scene = Scene(course, judge.outline, trace.track(), cells_m, passed, missed)
     whole, details = _whole(scene), _details(judge)
+    if not details:
+        whole_map(scene, title).savefig(path, dpi=DPI)
+        return
     map_in = _height_in(whole)
     figure = new_figure(WIDTH_IN, map_in + DETAIL_IN)
-    grid = figure.add_gridspec(2, len(details), height_ratios=[map_in, DETAIL_IN])
+    grid = figure.add_gridspec(2, DETAILS, height_ratios=[map_in, DETAIL_IN])
     _draw_whole(figure.add_subplot(grid[0, :]), scene, whole, title)
     for k, (name, pose) in enumerate(details):
         _draw_detail(figure.add_subplot(grid[1, k]), scene, name, pose)
@@ -68,7 +74,8 @@ def whole_map(scene: Scene, title: str) -> Figure:
 
 def _whole(scene: Scene) -> Box:
     points = np.vstack([scene.course.waypoint_m, scene.track[:, :2]])
-    margin = min(float(scene.course.half_width_m.max()), 30.0) + MARGIN_LENGTHS * scene.length_m
+    around = min(float(scene.course.half_width_m.max()), 30.0) + MARGIN_LENGTHS * scene.length_m
+    margin = max(around, MARGIN_SHARE * float(np.ptp(points, axis=0).max()))
     low, high = points.min(axis=0) - margin, points.max(axis=0) + margin
     return float(low[0]), float(high[0]), float(low[1]), float(high[1])
 
@@ -78,17 +85,17 @@ def _height_in(box: Box) -> float:
     return float(np.clip(0.93 * WIDTH_IN * (top - bottom) / (right - left) + 0.8, 3.5, 14.0))
 
 
-def _details(judge: Judge) -> list[tuple[str, Pose | None]]:
-    """Three places: where the drive ended too early, and where each kind of thing was nearest."""
+def _details(judge: Judge) -> list[tuple[str, Pose]]:
+    """Where the drive ended too early, and where each kind of thing was nearest; three at most."""
     least = judge.clearance
-    tight: list[tuple[str, Pose | None]] = [
+    tight = [
         (f"{text}: {least.least_m[family]:.2f} m", least.least_at[family])
         for family, text in FAMILIES.items()
         if family in least.least_at
     ]
     if judge.outcome != "finished" and judge.pose:
         tight.insert(0, (f"the end: {judge.outcome}", judge.pose))
-    return (tight + [("", None)] * 3)[:3]
+    return tight[:DETAILS]
 
 
 def _draw_whole(axes: Axes, scene: Scene, box: Box, title: str) -> None:
@@ -103,11 +110,7 @@ def _draw_whole(axes: Axes, scene: Scene, box: Box, title: str) -> None:
     _scale_bar(axes, box)
 
 
-def _draw_detail(axes: Axes, scene: Scene, name: str, pose: Pose | None) -> None:
-    axes.axis("off")
-    if pose is None:
-        return
-    axes.axis("on")
+def _draw_detail(axes: Axes, scene: Scene, name: str, pose: Pose) -> None:
     draw_scene(axes, scene, detail=True)
     border = np.array(scene.outline.border_m(pose))
     axes.fill(*border.T, facecolor="none", edgecolor=INK, linewidth=1.4, zorder=9)
@@ -174,5 +177,11 @@ def _scale_bar(axes: Axes, box: Box) -> None:
     x, y, tick = left + 0.015 * width, bottom + 0.012 * width, 0.004 * width
     bar = np.array([[x, y + tick], [x, y], [x + length, y], [x + length, y + tick]])
     axes.plot(*bar.T, "-", color=INK, linewidth=1.4, zorder=10)
-    text = f"{length:g} m = {length / FOOT_M:.3g} ft, north is up"
+    text = f"{_told(length)}, north is up"
     axes.text(x + length + 2 * tick, y, text, color=INK, fontsize=8, va="bottom", zorder=10)
+
+
+def _told(length_m: float) -> str:
+    if length_m < 1000.0:
+        return f"{length_m:g} m = {length_m / FOOT_M:.3g} ft"
+    return f"{length_m / 1000.0:g} km = {length_m / MILE_M:.2g} miles"

@@ -147,6 +147,13 @@ def way(distance_m: float) -> str:
     return f"{distance_m:.0f} m" if distance_m < SHORT_M else f"{distance_m / MILE_M:.2f} miles"
 
 
+def duration(time_s: float) -> str:
+    """As "2:33 min" or "9:25:44 h"."""
+    minutes, seconds = divmod(round(time_s), 60)
+    hours, rest = divmod(minutes, 60)
+    return f"{hours}:{rest:02d}:{seconds:02d} h" if hours else f"{minutes}:{seconds:02d} min"
+
+
 def verdict(v: Result) -> str:
     """Whether a figure is as it must be, for people."""
     value = f"{v['value']:.4g}" if isinstance(v["value"], float) else v["value"]
