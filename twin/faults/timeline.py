@@ -39,6 +39,9 @@ class Faults:
 
     def heard(self, time_ns: int, device: str, message: SensorMessage) -> SensorMessage | None:
         """What a sensor says instead of `message`; None where nothing is heard of it."""
+        if not self._of(device, time_ns):  # nearly always
+            self._held[device] = message
+            return message
         if not self.frozen(time_ns, device):
             self._held[device] = message
         if self.silent(time_ns, device):
