@@ -3,6 +3,7 @@
 from array import array
 from collections.abc import Sequence
 from typing import TYPE_CHECKING
+from zlib import compress, decompress
 
 import numpy as np
 from numpy.typing import NDArray
@@ -32,7 +33,8 @@ class Trace:
     def __init__(self) -> None:
         self._tick = 0
         self._places = array("d")
-        self._past: list[Cells] = []
+        self._past: list[bytes] = []
+        """Packed: a quarter, as measured in a race."""
         self._recent = NO_CELLS
         self._new: list[Cells] = []
         self._cell_m = 1.0
@@ -58,12 +60,13 @@ class Trace:
     def cells_m(self) -> Floats:
         """Shape (m, 2): all cells that were ever occupied, route frame N, [m]."""
         self._merge()
-        cells = np.unique(np.concatenate([*self._past, self._recent]), axis=0)
+        past = [np.frombuffer(decompress(part), np.int32).reshape(-1, 2) for part in self._past]
+        cells = np.unique(np.concatenate([*past, self._recent]), axis=0)
         return (cells.astype(np.float64) + 0.5) * self._cell_m
 
     def _merge(self) -> None:
         self._recent = np.unique(np.concatenate([self._recent, *self._new]), axis=0)
         self._new = []
         if len(self._recent) > MOST:
-            self._past.append(self._recent)
+            self._past.append(compress(self._recent.tobytes(), 1))
             self._recent = NO_CELLS
