@@ -1,6 +1,7 @@
-"""What all tests share: the processor's settings, made before numpy loads, as the command does; and
-the tape of a short drive."""
+"""What all tests share: the processor's settings, made before numpy loads, as the command does;
+Ctrl-C; and the tape of a short drive."""
 
+import signal
 from pathlib import Path
 
 import pytest
@@ -8,6 +9,8 @@ import pytest
 from scenarios.processor import fix_processor
 
 fix_processor()
+signal.signal(signal.SIGINT, signal.default_int_handler)
+"""Who runs the tests in the background has it ignored, and so would all that they start."""
 
 SHORT_S = 17.0
 """Long enough for Obstacle Avoidance in the dead end."""
