@@ -1,5 +1,6 @@
 """What a drive's result depends on beside what was asked: the code, and the kind of processor."""
 
+from functools import cache
 from hashlib import sha256
 from importlib.resources import files
 from importlib.resources.abc import Traversable
@@ -11,8 +12,9 @@ PACKAGES = ("nav", "twin", "scenarios", "models")
 """What a result depends on."""
 
 
+@cache
 def code() -> str:
-    """What is the same as long as the code and the processor are."""
+    """What is the same as long as the code and the processor are; a process asks its files once."""
     found = sha256(repr(sorted(fingerprint().items())).encode())
     for package in PACKAGES:
         _add(found, files(package))

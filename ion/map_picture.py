@@ -51,10 +51,11 @@ def draw_map(course: Course, trace: Trace, judge: Judge, title: str, path: Path)
     cells_m = frames(course).to_world(trace.cells_m())
     passed = frozenset(judge.gates.passed)
     scene = Scene(course, judge.outline, trace.track(), cells_m, passed, missed)
-    whole, details = _whole(scene), _details(judge)
+    details = _details(judge)
     if not details:
         whole_map(scene, title).savefig(path, dpi=DPI)
         return
+    whole = _whole(scene)
     map_in = _height_in(whole)
     figure = new_figure(WIDTH_IN, map_in + DETAIL_IN)
     grid = figure.add_gridspec(2, DETAILS, height_ratios=[map_in, DETAIL_IN])

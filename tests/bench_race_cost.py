@@ -13,12 +13,15 @@ from argparse import ArgumentParser
 from pathlib import Path
 from statistics import fmean, median
 
-from ion.courses import scenario_source
-from ion.segments import Checkpoint, last_checkpoint
-from ion.trace import Trace
-from scenarios.behaviour import Behaviour
-from scenarios.events import Events
 from scenarios.processor import fix_processor
+
+fix_processor()  # before numpy loads
+
+from ion.courses import scenario_source  # noqa: E402
+from ion.segments import Checkpoint, last_checkpoint  # noqa: E402
+from ion.trace import Trace  # noqa: E402
+from scenarios.behaviour import Behaviour  # noqa: E402
+from scenarios.events import Events  # noqa: E402
 
 SECOND = 50
 """Ticks."""
@@ -55,17 +58,16 @@ def main() -> None:
     ask.add_argument("--seconds", type=int, default=200)
     asked = ask.parse_args()
     late = last_checkpoint(asked.folder)
+    print(f"after {late.episode.judge.movement.distance_m / 1e3:.0f} km")
     drives, cost = (fresh(late), late), list[list[float]]()
     for _ in range(asked.seconds):
         if any(drive.episode.outcome for drive in drives):
             break
         cost.append([second_ms(drive) for drive in drives])
-    print(f"after {late.episode.judge.movement.distance_m / 1e3:.0f} km")
     for name, of in (("median", median), ("mean", fmean)):
         without, whole = (of(each) for each in zip(*cost[SETTLED_S:], strict=True))
         print(f"{name} {whole:.1f} ms, without them {without:.1f} ms: {whole / without:.3f}")
 
 
 if __name__ == "__main__":
-    fix_processor()
     main()
